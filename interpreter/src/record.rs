@@ -90,7 +90,7 @@ impl Motion {
 pub enum Rest {
     /// G04, `#TIME`.
     Dwell,
-    /// Declared durations of M, H and S functions.
+    /// Declared durations of M, H, S and T functions.
     Technology,
     /// G60, G360: the actual positions of the axes are not in their windows yet.
     ExactStop,

@@ -135,7 +135,7 @@ pub struct Summary {
     pub ideal_duration_s: f64,
     /// Time in seconds of dwells (G04, `#TIME`); part of `stop` in `time_by_v_limit_s`.
     pub dwell_s: f64,
-    /// Time in seconds of waits for M, H and S functions with declared durations; part of `stop` in
+    /// Time in seconds of waits for M, H, S and T functions with declared durations; part of `stop` in
     /// `time_by_v_limit_s`.
     pub technology_s: f64,
     /// Time in seconds for which feedhold or override 0 kept the path at rest.

@@ -55,7 +55,7 @@ impl Slope {
     }
 
     /// Whether a small change of speed in a feed block also takes full ramp times.
-    pub(crate) fn keeps_ramp_times(self) -> bool {
+    pub fn keeps_ramp_times(self) -> bool {
         self.constant_ramp_time && matches!(self.kind, SlopeKind::Trapez | SlopeKind::Sin2)
     }
 }
@@ -140,6 +140,9 @@ pub struct ChannelDynamics {
     pub transition_velocity_min_mm_s: f64,
     /// G116: every transition is a stop.
     pub stop_at_transitions: bool,
+    /// Main axes by index whose longest ramp time is that of a motion in which they take part (P-CHAN-00758); none outside of
+    /// coordinate systems.
+    pub longest_ramps_of: [Option<usize>; 3],
 }
 
 impl ChannelDynamics {
@@ -156,6 +159,7 @@ impl ChannelDynamics {
             vector_acc_on_arcs: false,
             transition_velocity_min_mm_s: 0.0,
             stop_at_transitions: false,
+            longest_ramps_of: [None; 3],
         }
     }
 }

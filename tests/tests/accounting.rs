@@ -161,22 +161,25 @@ const DECLARED: [&str; 8] = [
 #[test]
 fn declared_durations_are_waited_for() {
     // functions of one block go to the machine together: the longest duration counts; S belongs to M3 of its block
-    let text = "M7\nM8\nM3 S600\nM7 M8\nH3\nS700\nG01 X1 F1000\nM30\n";
+    let text = "M7\nM8\nM3 S600\nM7 M8\nH3\nS700\nT5\nG01 X1 F1000\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
     assert!(folder.summary(&[])["not_counted"].as_array().unwrap().contains(&"M8".into()));
-    let declared = [&DECLARED[..], &["--set", "channel.h_prozess_zeit[3]=250000"]].concat();
+    let of_h_and_t = ["channel.h_prozess_zeit[3]=250000", "channel.tool.prozess_zeit=750000"];
+    let of_h_and_t = of_h_and_t.iter().flat_map(|set| ["--set", set]);
+    let declared: Vec<&str> = DECLARED.into_iter().chain(of_h_and_t).collect();
     let off = folder.summary(&declared);
     let on = folder.summary(&[&declared[..], &["--techno-times"]].concat());
-    near(&on["technology_s"], 0.5 + 1.3 + 0.5 + 1.3 + 0.25 + 0.2, 1e-9);
+    near(&on["technology_s"], 0.5 + 1.3 + 0.5 + 1.3 + 0.25 + 0.2 + 0.75, 1e-9);
     near(&off["technology_s"], 0.0, 0.0);
     let duration = |s: &serde_json::Value| s["duration_s"].as_f64().unwrap();
-    assert!((duration(&on) - duration(&off) - 4.05).abs() < 1e-9);
+    assert!((duration(&on) - duration(&off) - 4.8).abs() < 1e-9);
     assert_eq!(on["not_counted"].as_array().unwrap().len(), 0, "{on}");
     let named = off["not_counted"].to_string();
     for w in [
         "M7 (0.5 s each by P-CHAN-00040)",
         "M3 of S (0.5 s each by P-CHAN-00044)",
         "H3 (0.25 s each by P-CHAN-00026)",
+        "tool change (T) (0.75 s each by P-CHAN-00072)",
         "S word of S (0.2 s",
     ] {
         assert!(named.contains(w), "{w}: {named}");

@@ -136,7 +136,7 @@ pub struct Options {
     pub max_time_s: f64,
     /// Treats `#TRAFO ON` and related commands as identity, with a warning, instead of refusing them.
     pub identity_trafo: bool,
-    /// Whether the path waits for durations of M, H and S functions declared in the lists (P-CHAN-00026, 00040, 00042 to 00048,
+    /// Whether the path waits for durations of M, H, S and T functions declared in the lists (P-CHAN-00026, 00040, 00042 to 00048, 00072,
     /// 00080).
     pub techno_times: bool,
     /// External variables by their name after `V.E.`, as the PLC sets them: with the types of the machine's list, whatever

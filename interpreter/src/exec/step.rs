@@ -112,7 +112,7 @@ pub(crate) enum Sync {
         /// Time in s, not negative.
         seconds: f64,
     },
-    /// M, H and S functions with durations declared in the lists, if the user includes them: waits for this time.
+    /// M, H, S and T functions with durations declared in the lists, if the user includes them: waits for this time.
     Technology {
         /// Time in s, above 0.
         seconds: f64,

@@ -85,7 +85,7 @@ const LIMITS: &[Word] = &[
         meaning: "the path waits for G04 or #TIME (--times)",
         facts: &[], related: &["G04"] },
     Word { name: "technology",
-        meaning: "the path waits for M, H and S functions for the times declared in the channel list (--times, with --techno-times)",
+        meaning: "the path waits for M, H, S and T functions for the times declared in the channel list (--times, with --techno-times)",
         facts: &[], related: &["P-CHAN-00040", "P-CHAN-00026", "P-CHAN-00044"] },
     Word { name: "exact_stop",
         meaning: "the path waits at G60, G360 until the actual positions are inside the window (--times)",

@@ -83,6 +83,19 @@ impl Axis {
         upper - lower
     }
 
+    /// The position within that range; that of an axis without one as it is.
+    ///
+    /// Source: P-AXIS-00015, bit 0x4 (TF5264 965899659): when the target is reached the position is reduced to the modulo range.
+    pub(crate) fn in_modulo_range(&self, position: f64) -> f64 {
+        if !self.is_modulo() {
+            return position;
+        }
+        let (lower, upper) = self.modulo_range_deg();
+        let reduced = lower + (position - lower).rem_euclid(upper - lower);
+        // an angle just below a full revolution results from rounding
+        if upper - reduced < 1e-9 { lower } else { reduced }
+    }
+
     /// Lower and upper end of that range in deg.
     pub(crate) fn modulo_range_deg(&self) -> (f64, f64) {
         (self.get(axis_general::MODULO_LOWER), self.get(axis_general::MODULO_UPPER))

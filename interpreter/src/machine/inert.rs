@@ -68,6 +68,7 @@ const INERT: &[(&str, &str)] = &[
     ("P-CHAN-00190", "the limits do not depend on the length of a motion"),
     ("P-CHAN-00217", "the first motion after #HSC ON is part of the spline"),
     ("P-CHAN-00219", "contour violations are found without contour masking"),
+    ("P-CHAN-00220", "the path does not slow down around sharp corners"),
     ("P-CHAN-00230", "the limits do not depend on the radius of an arc"),
     ("P-CHAN-00259", "contouring treats arcs as with 0"),
     ("P-CHAN-00261", "there is only one path"),

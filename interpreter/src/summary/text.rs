@@ -55,7 +55,7 @@ impl Summary {
             writeln!(out, "  dwells         {:.3} s", self.dwell_s)?;
         }
         if self.technology_s > 0.0 {
-            let text = "M, H and S functions, by their declared durations";
+            let text = "M, H, S and T functions, by their declared durations";
             writeln!(out, "  technology     {:.3} s ({text})", self.technology_s)?;
         }
         if self.held_s > 0.0 {

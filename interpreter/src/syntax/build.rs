@@ -47,7 +47,26 @@ impl<'a> Builder<'a> {
         // after a misplaced command or control statement a second message is of no use
         let last = rest.starts_with(['#', '$']);
         self.reported = if last { u32::MAX } else { problem.span.start };
+        let problem = self.remark_for_value(&problem).unwrap_or(problem);
         self.report(problem);
+    }
+
+    /// `X(P1*2)`: a remark after an address that lacks its value.
+    fn remark_for_value(&self, problem: &Problem) -> Option<Problem> {
+        let before = self.masked.get(..problem.span.start as usize)?.trim_ascii_end();
+        let address = before.rsplit([' ', '\t']).next()?;
+        let is_letter = matches!(address.as_bytes(), [letter] if letter.is_ascii_alphabetic());
+        let behind = &self.text[before.len()..];
+        let remark = behind.trim_ascii_start().strip_prefix('(')?;
+        let content = remark.split(')').next()?;
+        let at = self.text.len() - remark.len() - 1;
+        is_letter.then(|| {
+            Problem::syntax(
+                Span::new(at, at + 1),
+                format!("a remark in place of the value of {address}"),
+            )
+            .hint(format!("expressions are written in [ ]: {address}[{content}]"))
+        })
     }
 
     /// Reports a problem instead of all others that the grammar has with the block.

@@ -85,7 +85,8 @@ impl SlopeTable {
     /// Path slope over a path.
     ///
     /// The weakest axis determines the acceleration; ramps are combined through the axis jerk `a_i / t_i` (Assumption:
-    /// with this rule no axis exceeds its jerk, and none is slower than necessary).
+    /// with this rule no axis exceeds its jerk, and none is slower than necessary). In coordinate systems the ramp time is
+    /// the longest one of the main axes that move (P-CHAN-00758 = 1).
     pub(crate) fn path_slope(&self, x: &PathExtremes) -> SlopeLimits {
         let d = &self.dynamics;
         if self.slope.kind == SlopeKind::Step {
@@ -105,11 +106,26 @@ impl SlopeTable {
         let vector_jerk = vector.jerk_mm_s3.map_or(f64::INFINITY, |jerk| jerk / shape.peak_jerk());
         let ramp = |k: usize| {
             let path = if k < 2 { acc } else { dec };
-            path / weakest[self.jerks[k]].min(vector_jerk)
+            let combined = path / weakest[self.jerks[k]].min(vector_jerk);
+            combined.max(self.longest_of_main_axes(k, x))
         };
         let constant_ramp_time = self.slope.keeps_ramp_times() && !self.rapid;
         let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
         SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
+    }
+}
+
+impl SlopeTable {
+    /// The longest time in s of a ramp over the main axes that determine it (P-CHAN-00758); 0 without such axes.
+    fn longest_of_main_axes(&self, ramp: usize, x: &PathExtremes) -> f64 {
+        let (plateau, jerk) = (&self.rows[self.plateaus[ramp / 2]], &self.rows[self.jerks[ramp]]);
+        let moving = self
+            .dynamics
+            .longest_ramps_of
+            .into_iter()
+            .flatten()
+            .filter(|axis| x.first[*axis] > 0.0);
+        moving.map(|axis| plateau[axis] / jerk[axis]).fold(0.0, f64::max)
     }
 }
 

@@ -19,6 +19,9 @@ pub struct Thresholds {
 }
 
 impl Thresholds {
+    /// Never reached.
+    pub const NEVER: Self = Self { warn_ratio: f64::INFINITY, error_ratio: f64::INFINITY };
+
     /// `None` if both are 0: monitoring off (acceleration and jerk only).
     fn watched(self) -> Option<Self> {
         (self.warn_ratio != 0.0 || self.error_ratio != 0.0).then_some(self)

@@ -38,7 +38,7 @@ class Options(TypedDict, total=False):
     identity_trafo: bool
     """Treat kinematic transformations as identity, with a warning."""
     techno_times: bool
-    """Wait for M, H and S functions for the times declared in the channel list."""
+    """Wait for M, H, S and T functions for the times declared in the channel list."""
     external: Mapping[str, float | str]
     """Values of external variables by their names after ``V.E.``."""
 

@@ -7,7 +7,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::values::number::as_number;
 use crate::suggest;
-use crate::syntax::ast::{Expr, Group, Ident, Item, ItemKind, ItemValue, Span};
+use crate::syntax::ast::{Expr, ExprKind, Group, Ident, Item, ItemKind, ItemValue, Span};
 
 /// Title of the override of spindles in messages.
 pub(in crate::exec) const SPINDLE_OVERRIDE: &str = "S[OVERRIDE]";
@@ -260,6 +260,11 @@ pub(in crate::exec) fn read_all(
     let items: &[Item] = group.map_or(&[], |g| &g.items);
     let mut at = 0;
     while let Some(item) = items.get(at) {
+        if let Some(fault) = items[..at].last().and_then(|before| decimal_comma(before, item)) {
+            decoder.report.note(fault);
+            at += 1;
+            continue;
+        }
         at += 1;
         // `TYPE HSC`: missing equals sign
         let pair = pair_of_words(item, items.get(at), keys);
@@ -289,6 +294,30 @@ pub(in crate::exec) fn read_all(
         }
     }
     Ok(found)
+}
+
+/// `PATH_DEV=0,01`: a number with a decimal comma is read as a pair and a value without a key.
+fn decimal_comma(before: &Item, item: &Item) -> Option<Box<Fault>> {
+    let ItemKind::Pair { key, value: ItemValue::Expr(Expr { kind: ExprKind::Number(whole), .. }) } =
+        &before.kind
+    else {
+        return None;
+    };
+    let ItemKind::Value(ItemValue::Expr(Expr { kind: ExprKind::Number(digits), .. })) = &item.kind
+    else {
+        return None;
+    };
+    let comma = before.span.start + before.span.len;
+    let adjacent = item.span.start == comma + 1;
+    (adjacent && *digits >= 0.0 && digits.fract() == 0.0).then(|| {
+        let places = item.span.len as usize;
+        Fault::new(
+            Condition::Syntax,
+            "a number with a decimal comma",
+            Span { start: comma, len: 1 },
+        )
+        .hint(format!("write {}={whole}.{digits:0places$}", key.text))
+    })
 }
 
 /// Joins a key and the word after it to one item.

@@ -61,8 +61,11 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [word, ..] => return Err(call.unexpected(word)),
     }
     let keys = VectorArguments::read(decoder, &call.title(), call.command.groups.first())?;
-    let named = [keys.feed.is_some(), keys.rapid.is_some()];
-    let meant = if named == [false, false] { [true, true] } else { named };
+    let meant = match (call.name, [keys.feed.is_some(), keys.rapid.is_some()]) {
+        ("VECTORACC", _) => [true, false],
+        (_, [false, false]) => [true, true],
+        (_, named) => named,
+    };
     match (on, keys.limits_nothing()) {
         (false, true) => {
             decoder.motion.limits.change_vector(meant, |v| *v = VectorLimits::default());
@@ -131,11 +134,12 @@ pub(super) const VECTORVEL: Row = Row::run("VECTORVEL", vector_of_one)
 /// Row of `#VECTORACC`.
 pub(super) const VECTORACC: Row = Row::run("VECTORACC", vector_of_one)
     .form("#VECTORACC ON [a]   #VECTORACC [a] ON   #VECTORACC OFF")
-    .meaning("older form of #VECTOR LIMIT ON [ACC=a]; without a the configured limit")
+    .meaning("older form of #VECTOR LIMIT ON [ACC=a FEED]; without a the configured limit")
     .example("#VECTORACC ON [2700000]")
     .related(&["#VECTOR LIMIT", "P-CHAN-00002"]);
 
-/// `#VECTORVEL`, `#VECTORACC` (HSC 15427960971): equivalent to `#VECTOR LIMIT` with one key.
+/// `#VECTORVEL`, `#VECTORACC` (HSC 15427960971): equivalent to `#VECTOR LIMIT` with one key; `#VECTORACC` limits feed blocks
+/// only (15425556619).
 fn vector_of_one(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     let key = if call.name == "VECTORVEL" { "VEL" } else { "ACC" };

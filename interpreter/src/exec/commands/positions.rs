@@ -1,7 +1,7 @@
 //! Reads positions of the machine into variables: `#GET CMDPOS`, `#GET ACTPOS` and the older `#SET IPO SOLLPOS`.
 //!
 //! The path stops, then each variable is set to the position of its axis. Nothing else changes: neither the programmed position
-//! nor `V.A.ABS`. Assumption: positions are those of the axis, without zero offsets, coordinate systems and mirroring, as in
+//! nor `V.A.ABS`. Those of modulo axes are within their range. Assumption: positions are those of the axis, without zero offsets, coordinate systems and mirroring, as in
 //! `V.A.ACT_POS`.
 //!
 //! Source: TF5200 programming manual, request command and actual positions; 20186, 20500.
@@ -84,7 +84,8 @@ fn assign(
             return Err(wrong(call, item.span));
         };
         let axis = decoder.names.in_command(axis)?;
-        let value = position(decoder, axis) / decoder.modal.axis_unit(&decoder.machine.axes[axis]);
+        let of = &decoder.machine.axes[axis];
+        let value = of.in_modulo_range(position(decoder, axis)) / decoder.modal.axis_unit(of);
         decoder.write(place, Value::Number(value), item.span)?;
     }
     Ok(())

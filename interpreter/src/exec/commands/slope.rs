@@ -66,8 +66,14 @@ fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         };
         decoder.modal.commanded.slope.kind = kind;
     }
-    if let Some((x, _)) = keys.no_opt {
-        decoder.modal.commanded.slope.optimised = x < 0.5;
+    if let Some((x, span)) = keys.no_opt {
+        let slope = &mut decoder.modal.commanded.slope;
+        slope.optimised = x < 0.5;
+        if slope.optimised && !slope.keeps_ramp_times() {
+            let text = "NO_OPT=0 changes nothing: without constant ramp times (P-CHAN-00349) the \
+                profile uses the whole jerk with NO_OPT=1, too";
+            decoder.report.note_once("NO_OPT", Fault::new(Condition::Fallback, text, span));
+        }
     }
     set_old(decoder, false);
     Ok(())

@@ -286,6 +286,7 @@ pub(in crate::exec) fn channel_dynamics(
         curve_jerk: channel.dynamics.curve_jerk,
         transition_velocity_min_mm_s: modal.commanded.transition_min_mm_s,
         stop_at_transitions: modal.look_ahead == LookAhead::StopAtTransitions,
+        longest_ramps_of: [None; 3],
     };
     (dynamics, capped)
 }

@@ -69,6 +69,15 @@ impl MotionState {
 }
 
 impl Decoder {
+    /// The ramp times of motions in coordinate systems are the longest ones of the main axes (P-CHAN-00758).
+    pub(super) fn update_ramps(&mut self) {
+        let coordinates = &self.geometry.coordinates;
+        let longest =
+            self.machine.channel.dynamics.longest_ramp_in_systems && coordinates.systems() > 0;
+        let main = |i| coordinates.main_axis(i).filter(|_| longest);
+        self.motion.limits.use_longest_ramps_of([0, 1, 2].map(main));
+    }
+
     /// Whether polynomial contouring is active: G261, or G61 at the corner after the last motion.
     pub(in crate::exec) fn is_contouring(&self) -> bool {
         let once = self.motion.contouring == Contouring::Once;
@@ -105,6 +114,7 @@ impl Decoder {
             return Ok(());
         }
         let (contour, spline) = hsc;
+        self.update_ramps();
         let block = Box::new(Block {
             seq: 0,
             path,

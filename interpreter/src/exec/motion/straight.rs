@@ -239,6 +239,7 @@ impl Decoder {
         let feed = self.feed_of(path, at)?;
         let rapid = feed == Feed::Rapid;
         let InPlane { plane, .. } = self.in_plane(at)?;
+        self.update_ramps();
         Ok(Box::new(Straight {
             feed,
             feed_ratio: self.motion.overrides.ratio(rapid, 0..1),

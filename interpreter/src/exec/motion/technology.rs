@@ -1,7 +1,7 @@
-//! Durations of M, H and S functions: included in the run, or reported as not included.
+//! Durations of M, H, S and T functions: included in the run, or reported as not included.
 //!
 //! The vendor's production time calculation takes them from the channel list (TF5200 M and H functions, production time
-//! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00080).
+//! calculation; P-CHAN-00026, 00040, 00042, 00044, 00046, 00048, 00072, 00080).
 
 use super::state::{Function, MotionState};
 use crate::diag::Condition;
@@ -181,7 +181,7 @@ fn declared(channel: &Channel, function: Function) -> Option<(f64, Param<Optiona
         Function::H(number) => {
             (channel.functions.h_durations_s.get(&number).copied(), of::H_DURATION)
         }
-        Function::Tool => return None,
+        Function::Tool => (channel.functions.tool_duration_s, of::TOOL_DURATION),
         Function::Spindle { spindle, m: 3 } => (listed(spindle).m3, of::SPINDLE_M3_DURATION),
         Function::Spindle { spindle, m: 4 } => (listed(spindle).m4, of::SPINDLE_M4_DURATION),
         Function::Spindle { spindle, m: 5 } => (listed(spindle).m5, of::SPINDLE_M5_DURATION),

@@ -1,4 +1,4 @@
-//! Entries of a channel list on M, H and S functions: when the path waits for them, and for how long.
+//! Entries of a channel list on M, H, S and T functions: when the path waits for them, and for how long.
 
 use crate::machine::parameters::Parameters;
 use crate::machine::table::channel as of;
@@ -134,6 +134,8 @@ pub(crate) struct FunctionEntries {
     pub(crate) m_durations_s: BTreeMap<u32, f64>,
     /// Durations of H functions in s (P-CHAN-00026).
     pub(crate) h_durations_s: BTreeMap<u32, f64>,
+    /// Duration of a tool request in s (P-CHAN-00072).
+    pub(crate) tool_duration_s: Option<f64>,
     /// Axes and spindles to which M functions go (P-CHAN-00039).
     pub(crate) m_outputs: BTreeMap<u32, Box<str>>,
     /// When the path waits for M functions, where the list says so (P-CHAN-00041).
@@ -161,6 +163,7 @@ impl FunctionEntries {
             spindle_at_start: p.get(of::M_GROUP),
             m_durations_s: p.array(of::M_DURATION).collect(),
             h_durations_s: p.array(of::H_DURATION).collect(),
+            tool_duration_s: p.get(of::TOOL_DURATION),
             m_outputs: p
                 .array(of::M_OUTPUT)
                 .filter(|(_, name)| !name.is_empty())

@@ -34,6 +34,8 @@ pub(crate) struct PathEntries {
     pub(crate) vector_time_s: f64,
     /// The path acceleration limit also applies to the centripetal acceleration (P-CHAN-00350).
     pub(crate) vector_acc_on_arcs: bool,
+    /// In coordinate systems the longest ramp time of the main axes applies (P-CHAN-00758).
+    pub(crate) longest_ramp_in_systems: bool,
 }
 
 impl PathEntries {
@@ -58,6 +60,7 @@ impl PathEntries {
             vector: vector(p),
             vector_time_s: vector_time_s(p),
             vector_acc_on_arcs: p.get(of::PATH_ACC_ON_ARCS),
+            longest_ramp_in_systems: p.get(of::LONGEST_RAMP_IN_SYSTEMS),
         }
     }
 }

@@ -269,7 +269,11 @@ fn position(axis: &Axis, v_max_mm_s: f64, diagnostics: &mut Vec<Diagnostic>) -> 
         kv_per_s: axis.kv_1_s(),
         dynamic_kv: dynamic_kv(axis, closed_in, diagnostics),
         v_max_mm_s,
-        v_excess_ratio: axis.get(axis_control::SPEED_EXCESS),
+        // switched off for gantry slaves (117763467)
+        v_excess_ratio: match axis.gantry_master() {
+            Some(_) => 0.0,
+            None => axis.get(axis_control::SPEED_EXCESS),
+        },
         dead_band_mm: axis.get(axis_control::DEAD_BAND),
         closed_in,
     }

@@ -40,15 +40,20 @@ pub(super) fn exact_stop(axis: &Axis) -> ExactStopConfig {
 }
 
 /// The monitor of the set positions for these limits.
+///
+/// Assumption: of a gantry slave nothing is monitored. The page places the monitor in the interpolator (117562251), and
+/// the interpolator does not know the slave of a static gantry (285764875).
 pub(super) fn setpoint(
     axis: &Axis,
     v_max_mm_s: f64,
     a_max_mm_s2: f64,
     j_max_mm_s3: f64,
 ) -> SetpointMonitorConfig {
-    let thresholds = |warning: Param<Number>, error: Param<Number>| Thresholds {
-        warn_ratio: axis.get(warning),
-        error_ratio: axis.get(error),
+    let thresholds = |warning: Param<Number>, error: Param<Number>| {
+        if axis.gantry_master().is_some() {
+            return Thresholds::NEVER;
+        }
+        Thresholds { warn_ratio: axis.get(warning), error_ratio: axis.get(error) }
     };
     SetpointMonitorConfig {
         v_max_mm_s,

@@ -273,6 +273,8 @@ parameters! {
         .default_is(Default::Text("S")).source("TF5200 channel parameters"), as MAIN_SPINDLE_NAME: Text;
     chan("P-CHAN-00080", "spindel[i].s_prozess_zeit", Raw::Uns32, "duration of an S word, counted with --techno-times")
         .default(0.0).unit("us", "us"), as SPINDLE_SPEED_DURATION: Optional;
+    chan("P-CHAN-00072", "tool.prozess_zeit", Raw::Uns32, "duration of a tool request (T), counted with --techno-times")
+        .default(0.0).unit("us", "us").source("TF5200 channel parameters 148965259"), as TOOL_DURATION: Optional;
     chan("P-CHAN-00082", "spdl_anzahl", Raw::Uns16, "number of spindles of the channel")
         .range(Bound::None, Bound::At(16.0)).default(0.0), as SPINDLE_COUNT: Whole;
     chan("P-CHAN-00014", "einrechnen_mit_t", Raw::Boolean, "T also selects the tool data with its number, like T5 D5")
@@ -285,10 +287,26 @@ parameters! {
         .default_is(Default::Text("D")).source("TF5200 channel parameters 149002251"), as FLUSH_OF_TOOL_DATA: Text;
     chan("P-CHAN-00321", "block_filter_tolerance", Raw::Real64, "deviation up to which short blocks are merged; not simulated")
         .default(0.0).source("TF5200 channel parameters 149692939");
+    chan("P-CHAN-00220", "edge_machining.enable", Raw::Boolean, "1: reduced feed before and after sharp corners and a wait in them from program start; not simulated")
+        .default(0.0).source("TF5200 channel parameters 149479179");
+    chan("P-CHAN-00221", "edge_machining.angle_limit", Raw::Uns32, "edge machining: limit of the angle between two blocks; read and ignored")
+        .default(0.0).unit("0.0001deg", "0.0001deg").source("TF5200 channel parameters 149486091");
+    chan("P-CHAN-00222", "edge_machining.pre_dist", Raw::Uns32, "edge machining: distance before the corner; read and ignored")
+        .default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 149487627");
+    chan("P-CHAN-00223", "edge_machining.pre_feed", Raw::Uns32, "edge machining: feed rate before the corner; read and ignored")
+        .default(0.0).unit("um/s", "um/s").source("TF5200 channel parameters 149489163");
+    chan("P-CHAN-00224", "edge_machining.wait_time", Raw::Uns32, "edge machining: wait in the corner; read and ignored")
+        .default(0.0).unit("us", "us").source("TF5200 channel parameters 149479179");
+    chan("P-CHAN-00225", "edge_machining.post_dist", Raw::Uns32, "edge machining: distance after the corner; read and ignored")
+        .default(0.0).unit("0.1um", "0.1um").source("TF5200 channel parameters 149492235");
+    chan("P-CHAN-00226", "edge_machining.post_feed", Raw::Uns32, "edge machining: feed rate after the corner; read and ignored")
+        .default(0.0).unit("um/s", "um/s").source("TF5200 channel parameters 149493771");
     chan("P-CHAN-00016", "ext_wzv_vorhanden", Raw::Boolean, "1: the tool data come from an external tool management; not simulated")
         .default(0.0).source("TF5200 channel parameters 147959819");
     chan("P-CHAN-00836", "thread_cutting.ignore_override", Raw::Boolean, "G33: 0 the override acts and changes the pitch, 1 it does not act")
         .default(0.0).source("TF5200 channel parameters"), as THREAD_IGNORES_OVERRIDE: Switch;
+    chan("P-CHAN-00758", "backward_compatibility.axis_spline_ramp_time", Raw::Boolean, "ramp time of a motion in a coordinate system (#CS): 1 the longest one of the main axes that move, 0 by the jerk of the axes and their share of the motion, as without a system")
+        .default(1.0).source("TF5200 channel parameters 1011140491"), as LONGEST_RAMP_IN_SYSTEMS: Switch;
     chan("P-CHAN-00837", "thread_cutting.thread_chain", Raw::Boolean, "consecutive blocks of G33: 0 each is a separate thread, 1 one thread without a stop")
         .default(0.0).source("TF5200 channel parameters"), as THREAD_CHAIN: Switch;
     chan("P-CHAN-00161", "g81_prog_file", Raw::Text, "global subroutine called by G81"), as G81_PROGRAM: Text;

@@ -83,9 +83,6 @@ fn in_words(before: &str, rest: &str, expected: &[&str]) -> Option<String> {
     }
     let is_letter = matches!(word.as_bytes(), [letter] if letter.is_ascii_alphabetic());
     let wanted = is_letter && expected.first() == Some(&VALUE);
-    if wanted && before.trim_ascii_end().ends_with(')') {
-        return Some(format!("( ) is a remark; expressions are written in [ ]: {word}[P1*2]"));
-    }
     wanted.then(|| format!("write the value of {word} next to it: {word}10.5"))
 }
 

@@ -61,7 +61,7 @@ macro_rules! own {
     InputNoEffect = Kontur 77 "K-INPUT-NOEFFECT": Warning None 1 0, "real-time input without effect", cause "the message states what the machine has switched off";
     ListAdvice = Kontur 78 "K-LIST-ADVICE": Note None 1 2, "list value outside what the documents recommend", cause "a recommendation: nothing is changed", hint "use the recommended value, unless the machine needs this one";
     PositionLoop = Kontur 79 "K-LOOP": Note None 1 2, "position loop not simulated as configured in the list", cause "P-AXIS-00320: loop in the drive, or none", hint "set kv (P-AXIS-00099) to the gain of the loop it replaces";
-    AxDevNotKept = Kontur 80 "K-AX-DEV": Error ProgramAbort 3 0, "tolerance AX_DEV could not be kept", cause "neither a lower speed nor a stop keeps the tolerance", hint "give the axes the same filter, or allow more AX_DEV";
+    AxDevNotKept = Kontur 80 "K-AX-DEV": Error ProgramAbort 3 0, "tolerance AX_DEV could not be kept", cause "neither a lower speed nor a stop keeps the tolerance", hint "give the axes the same filter, or allow more AX_DEV", note "a warning with filters of the lists that the plan does not include (low-pass, band-stop): the run continues";
     Message = Kontur 81 "K-MSG": Note None 1 1, "message of the program (#MSG)";
     Internal = Kontur 82 "K-INTERNAL": Error AllStop 8 0, "internal error of kontur", hint "please report this bug in kontur, with the program and the machine lists";
     Held = Kontur 83 "K-HELD": Error ProgramAbort 3 0, "path held indefinitely by feedhold or override 0, run stopped", cause "no later time stamp of the inputs releases the path";

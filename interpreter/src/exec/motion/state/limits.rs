@@ -27,6 +27,8 @@ pub(in crate::exec) struct PathLimits {
     feed_axes_named: bool,
     /// Active `#VECTOR LIMIT` in feed and in rapid blocks.
     vector: [VectorLimits; 2],
+    /// Main axes of coordinate systems, whose longest ramp time applies (P-CHAN-00758).
+    longest_ramps_of: [Option<usize>; 3],
     /// Dynamics in feed and in rapid blocks; reused while the limits do not change.
     dynamics: [Option<Arc<ChannelDynamics>>; 2],
 }
@@ -39,6 +41,7 @@ impl PathLimits {
             feed_axes: machine.channel.feed.axes.clone(),
             feed_axes_named: false,
             vector: [VectorLimits::default(); 2],
+            longest_ramps_of: [None; 3],
             dynamics: [None, None],
         }
     }
@@ -82,6 +85,14 @@ impl PathLimits {
         self.changed();
     }
 
+    /// The longest ramp time of these axes applies.
+    pub(in crate::exec) fn use_longest_ramps_of(&mut self, axes: [Option<usize>; 3]) {
+        if self.longest_ramps_of != axes {
+            self.longest_ramps_of = axes;
+            self.changed();
+        }
+    }
+
     /// Active dynamics in feed or rapid blocks; rebuilt after a change.
     pub(super) fn dynamics(
         &mut self,
@@ -123,6 +134,7 @@ impl PathLimits {
     ) -> ChannelDynamics {
         let (mut dynamics, _) = channel_dynamics(machine, weights, modal, vector);
         dynamics.feed_axes.clone_from(&self.feed_axes);
+        dynamics.longest_ramps_of = self.longest_ramps_of;
         let axes = machine.axes.iter().zip(&mut dynamics.axes).zip(manual);
         for ((axis, limits), _) in axes.filter(|(_, manual)| **manual) {
             axis.limit_beside_manual_mode(limits);

@@ -26,7 +26,7 @@ impl Path<'_> {
         Ok(Value::Number(f(d, axis) / d.modal.axis_unit(&d.machine.axes[axis])))
     }
 
-    /// A coordinate of the program. Refused for a scaled axis, because the documents do not specify whether it is the
+    /// A coordinate of the program, of a modulo axis within its range. Refused for a scaled axis, because the documents do not specify whether it is the
     /// coordinate before or after scaling.
     pub(super) fn coordinate(
         &self,
@@ -39,17 +39,19 @@ impl Path<'_> {
             let name = written(self.segments);
             return Err(Fault::unsupported(format!("V.{name} with #SCALE"), self.span));
         }
-        self.position(d, at, f)
+        self.position(d, at, |d, a| d.machine.axes[a].in_modulo_range(f(d, a)))
     }
 
-    /// Position of an axis with all offsets; 21784 for an axis that follows a master.
+    /// Position of an axis with all offsets, of a modulo axis within its range; 21784 for an axis that follows a master.
     pub(super) fn axis_position(&self, d: &Decoder) -> Outcome<Value> {
         let axis = self.axis(d, 3)?;
         if d.motion.couplings.is_slave(axis) {
             let text = format!("axis {} follows a master", d.names.name(axis));
             return Err(Fault::new(Condition::AxisPositionOfSlave, text, self.span));
         }
-        self.position(d, 3, |d, a| d.geometry.coordinates.target()[a])
+        self.position(d, 3, |d, a| {
+            d.machine.axes[a].in_modulo_range(d.geometry.coordinates.target()[a])
+        })
     }
 
     /// Axis by its name in the segment `at`, or by the index after the segment before.
