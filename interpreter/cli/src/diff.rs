@@ -35,6 +35,14 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
         return Err(Error::Usage(text.to_owned()));
     }
     let is_a = table::is_trace(&args.a)?;
+    let is_b = args.map.is_empty() && table::is_trace(&args.b)?;
+    if is_a
+        && (is_b || !args.map.is_empty())
+        && let Some(option) = args.simulation.given()
+    {
+        let text = format!("{option}: both files are traces, there is nothing to run");
+        return Err(Error::Usage(text));
+    }
     let mut open = |path: &Path, trace: bool, like: Option<&[String]>| {
         if trace {
             return Table::read(path);
@@ -57,7 +65,6 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
         return done.report(args.format, words, verdict, console);
     }
     // a fresh run produces the columns of the trace that it is compared with
-    let is_b = table::is_trace(&args.b)?;
     let (mut a, mut b) = if is_a || !is_b {
         let a = open(&args.a, is_a, None)?;
         let b = open(&args.b, is_b, Some(a.header()))?;

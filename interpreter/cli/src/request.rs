@@ -64,7 +64,7 @@ pub struct Request {
     pub strict: bool,
     /// Whether kinematic transformations are treated as identity.
     pub identity_trafo: bool,
-    /// Whether declared durations of M, H and S functions are waited for.
+    /// Whether declared durations of M, H, S and T functions are waited for.
     pub techno_times: bool,
     /// External variables by their name after `V.E.`: a number, otherwise a text.
     pub external: Vec<(String, String)>,

@@ -123,7 +123,7 @@ pub struct ResponseArgs {
     pub output: Vec<PathBuf>,
 
     /// Machine of --axis: a folder with a start-up list, the list itself, or a TwinCAT project [default: the built-in xyz]
-    #[arg(short, long, value_name = "DIR")]
+    #[arg(short, long, value_name = "DIR", requires = "axis")]
     pub machine: Option<PathBuf>,
 
     /// Override a list parameter of the machine, e.g. `X.vib_guard.active=1`

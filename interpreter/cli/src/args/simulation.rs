@@ -69,7 +69,7 @@ pub struct SimulationArgs {
     #[arg(long)]
     pub identity_trafo: bool,
 
-    /// Wait for M, H and S functions for the times declared in the channel list (P-CHAN-00026, 00040, 00042 to 00048, 00080);
+    /// Wait for M, H, S and T functions for the times declared in the channel list (P-CHAN-00026, 00040, 00042 to 00048, 00072, 00080);
     /// without this option they take no time and are named in the summary
     #[arg(long)]
     pub techno_times: bool,
@@ -85,6 +85,27 @@ pub struct SimulationArgs {
     /// Ends check and run from another thread; that of Ctrl-C on the command line
     #[arg(skip = crate::interrupt::stop())]
     pub stop: Stop,
+}
+
+impl SimulationArgs {
+    /// An option that is given and decides what is simulated, for commands that may have nothing to simulate.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let given = [
+            (self.machine.is_some(), "--machine"),
+            (!self.set.is_empty(), "--set"),
+            (!self.path.is_empty(), "--path"),
+            (!self.input.is_empty(), "--input"),
+            (self.cycle_us.is_some(), "--cycle-us"),
+            (!self.start.is_empty(), "--start"),
+            (!self.skip.is_empty(), "--skip"),
+            (!self.external.is_empty(), "--external"),
+            (self.allow_outside, "--allow-outside"),
+            (self.strict, "--strict"),
+            (self.identity_trafo, "--identity-trafo"),
+            (self.techno_times, "--techno-times"),
+        ];
+        given.into_iter().find_map(|(given, name)| given.then_some(name))
+    }
 }
 
 /// `NAME=VALUE`, the name with or without the `V.E.` of the program.

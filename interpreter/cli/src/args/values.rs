@@ -63,7 +63,9 @@ pub(super) fn whole<T: TryFrom<u64>>(
     move |text| {
         let number = text.trim().parse().ok().filter(|n| (least..=most).contains(n));
         number.and_then(|n| T::try_from(n).ok()).ok_or_else(|| match most {
-            u64::MAX => format!("a whole number from {least} is expected"),
+            u64::MAX if !text.trim().bytes().all(|b| b.is_ascii_digit()) => {
+                format!("a whole number from {least} is expected")
+            }
             _ => format!("a whole number from {least} to {most} is expected"),
         })
     }

@@ -68,10 +68,16 @@ pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
     }
 }
 
-/// A number on a scale.
+/// A number on a scale: with more than five decimals as multiple of a power of ten, for which there is room.
 fn text(v: f64, decimals: usize) -> String {
-    let text = format!("{v:.decimals$}");
-    if text.trim_start_matches(['-', '0', '.']).is_empty() {
+    let text = match decimals {
+        0..=5 => format!("{v:.decimals$}"),
+        _ => format!("{:.0}e-{decimals}", v * libm::pow(10.0, decimals as f64)),
+    };
+    if text.starts_with("0e")
+        || text.starts_with("-0e")
+        || text.trim_start_matches(['-', '0', '.']).is_empty()
+    {
         "0".to_owned()
     } else {
         text.replace('-', "\u{2212}")
@@ -207,6 +213,7 @@ mod tests {
             |range, wanted| ticks(range, wanted).into_iter().map(|t| t.1).collect::<Vec<_>>();
         assert_eq!(texts((0.0, 1.0), 5.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(texts((-0.013, 0.021), 4.0), ["\u{2212}0.01", "0", "0.01", "0.02"]);
+        assert_eq!(texts((-5e-7, 5e-7), 2.0), ["\u{2212}5e\u{2212}7", "0", "5e\u{2212}7"]);
         // a single number does not make a scale
         assert_eq!(texts((0.1, 0.9), 2.0), ["0.2", "0.4", "0.6", "0.8"]);
         assert!(ticks((1.0, 1.0), 4.0).is_empty());

@@ -132,7 +132,7 @@ fn record(
         return Err(Error::Usage(text));
     }
     let highest_hz = 0.5 / recorded.cycle_s;
-    if args.spectrum.is_some_and(|(low_hz, _)| low_hz >= highest_hz) {
+    if args.spectrum.is_some_and(|(_, high_hz)| high_hz > highest_hz * (1.0 + 1e-9)) {
         let text = format!(
             "--spectrum: a cycle of {} s allows frequencies up to {highest_hz} Hz",
             recorded.cycle_s

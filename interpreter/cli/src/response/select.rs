@@ -105,6 +105,8 @@ impl Found<'_> {
         let Some(filter) = filter else {
             return Err(Error::Usage(format!("{label}: order 0 switches the filter off")));
         };
+        let corrected = issues.iter().any(|issue| issue.effect() == Effect::Corrected);
+        let label = if corrected { format!("{label}, corrected") } else { label };
         if matches!(config.kind, FilterKind::BandPass | FilterKind::BandStop) {
             let FilterConfig { f_hz, q, .. } = *config;
             let (low, high) = band_edges_hz(f_hz, q, self.cycle.seconds());

@@ -82,7 +82,10 @@ function ticks(low, high, wanted) {
     if (found.length > 1 || n > 16) return found;
   }
 }
-const tickText = (v, decimals) => /^[-0.]*$/.test(v.toFixed(decimals)) ? "0" : v.toFixed(decimals).replace("-", "\u2212");
+function tickText(v, decimals) {
+  const text = decimals > 5 ? `${Math.round(v * 10 ** decimals)}e-${decimals}` : v.toFixed(decimals);
+  return /^(-?0e|[-0.]*$)/.test(text) ? "0" : text.replace(/-/g, "\u2212");
+}
 // grid with numbers, and what they count beside both axes
 function grid(c, box, x, y, xName, yName) {
   const [x0, y0, w, h] = box;

@@ -38,13 +38,19 @@ function placeOf(plot, px) {
 // the window of an exact stop as a band from t1 on, and t1, t2 (inside the window), t3 (time limit)
 function drawStops(c, { lines, kind }, X, Y, y0, h) {
   c.font = "10px sans-serif"; c.textBaseline = "top"; c.textAlign = "left"; c.lineWidth = 1;
-  for (const l of lines) for (const [axis, target, range, ...at] of l.r.stops) {
-    if (view.hidden.has(l) || l.c.name !== axis + (kind === "lag" ? "" : " actual")) continue;
+  const found = lines.flatMap(l => l.r.stops
+    .filter(([axis]) => !view.hidden.has(l) && l.c.name === axis + (kind === "lag" ? "" : " actual"))
+    .map(stop => [l, stop]));
+  // the times have room beside each other once a few stops are left in the view
+  const [from, to] = view.time, seen = found.filter(([l, stop]) => seconds(l.r, stop[3]) >= from && seconds(l.r, stop[3]) <= to);
+  const named = seen.length * 3 * 34 < X(to) - X(from);
+  for (const [l, [axis, target, range, ...at]] of found) {
     const [t1, t2, t3] = at.map(k => k === null ? null : X(seconds(l.r, k)));
     const middle = kind === "lag" ? 0 : target, high = Y(middle + range), last = Math.max(t1 + 1, t2 || 0, t3 || 0);
     c.fillStyle = paint(l.colour); c.globalAlpha = 0.15;
     c.fillRect(t1, high, last - t1, Y(middle - range) - high);
     c.globalAlpha = 1;
+    if (!named) continue;
     c.strokeStyle = c.fillStyle; c.setLineDash([3, 3]);
     [["t1", t1], ["t2", t2], ["t3", t3]].forEach(([name, x]) => {
       if (x === null) return;
