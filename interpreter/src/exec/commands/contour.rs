@@ -39,11 +39,12 @@ arguments! {
         check_jerk: MaybeNumber "CHECK_JERK" in between(0.0, 3.0).whole(), "", "as P-CHAN-00110";
         track_dist: Number "TRACK_DIST", "", "no effect";
         merge: MaybeNumber "MERGE", "", "no effect";
-        sym_dist: Number "SYM_DIST", "", "not supported";
+        sym_dist: Number "SYM_DIST" in at_least(-1.0), "mm", "of DIST_MASTER, default 1; older name of PATH_DIST in DIST_SOFT";
         acc_max: Number "ACC_MAX", "", "no effect";
         acc_min: Number "ACC_MIN", "", "no effect";
         ramp_time: Number "RAMP_TIME", "", "no effect";
         dist_weight: Number "DIST_WEIGHT", "", "no effect";
+        dist_weigth: Number "DIST_WEIGTH", "", "as DIST_WEIGHT, in the spelling of an older page";
         pre_action: Flag "PRE_ACTION", "", "the block ends before the curve: there functions act, and the path waits for them";
         inter_action: Flag "INTER_ACTION", "", "the block ends between both halves of the curve (default)";
         post_action: Flag "POST_ACTION", "", "the block ends after the curve";
@@ -74,7 +75,7 @@ impl ContourArguments {
             ("ACC_MAX", number(self.acc_max)),
             ("ACC_MIN", number(self.acc_min)),
             ("RAMP_TIME", number(self.ramp_time)),
-            ("DIST_WEIGHT", number(self.dist_weight)),
+            ("DIST_WEIGHT", number(self.dist_weight.or(self.dist_weigth))),
         ];
         keys.into_iter().filter_map(|(key, at)| Some((key, at?))).collect()
     }
@@ -90,20 +91,21 @@ impl ContourArguments {
     }
 
     /// Lengths in the command that its mode does not use: the mode, the key and its position. Source: the pages of the modes
-    /// (475180811, 475198987, 475227019 and their neighbours).
+    /// (475180811, 475198987, 475214859, 475227019, tccncprogramming 15557305483 and their neighbours).
     fn of_another_mode(&self) -> Vec<(&'static str, &'static str, Span)> {
         let [(word, mode, _)] = self.modes()[..] else { return Vec::new() };
         let used: &[&str] = match mode {
             Mode::Dev => &["PATH_DEV"],
             Mode::Dist | Mode::Pos => &["PRE_DIST", "POST_DIST"],
             Mode::Ptp => &["PATH_DEV", "PATH_DIST"],
-            Mode::DistSoft | Mode::DistMaster => &["PATH_DIST"],
+            Mode::DistSoft | Mode::DistMaster => &["PATH_DIST", "SYM_DIST"],
         };
         let lengths = [
             ("PATH_DEV", self.path_dev),
             ("PRE_DIST", self.pre_dist),
             ("POST_DIST", self.post_dist),
             ("PATH_DIST", self.path_dist),
+            ("SYM_DIST", self.sym_dist),
         ];
         let unused = lengths.into_iter().filter(|(key, _)| !used.contains(key));
         unused.filter_map(|(key, at)| Some((word, key, at?.1))).collect()
@@ -152,9 +154,8 @@ fn contour_mode(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let group = points(decoder, call.command.groups.first(), &mut settings)?;
     let keys = ContourArguments::read(decoder, &call.title(), group.as_ref())?;
     let speed = [("AUTO_VEL", &keys.auto_vel), ("VEL", &keys.vel)];
-    let speed = speed.into_iter().filter_map(|(name, key)| Some((name, key.as_ref()?.1)));
-    let distance = keys.sym_dist.as_ref().map(|(_, at)| ("SYM_DIST", *at));
-    if let Some((name, span)) = speed.chain(distance).next() {
+    let mut speed = speed.into_iter().filter_map(|(name, key)| Some((name, key.as_ref()?.1)));
+    if let Some((name, span)) = speed.next() {
         return Err(Fault::unsupported(format!("#CONTOUR MODE [{name}]"), span));
     }
     at_least_an_increment(Condition::PathDevTooSmall, "PATH_DEV", keys.path_dev, unit)?;
@@ -197,7 +198,9 @@ impl ContourArguments {
         set(&mut settings.path_dev_mm, self.path_dev, unit);
         set(&mut settings.pre_mm, self.pre_dist, unit);
         set(&mut settings.post_mm, self.post_dist, unit);
-        set(&mut settings.path_dist_mm, self.path_dist, unit);
+        let symmetric = matches!(settings.mode, Mode::DistSoft | Mode::DistMaster);
+        let path_dist = self.path_dist.or(self.sym_dist.filter(|_| symmetric));
+        set(&mut settings.path_dist_mm, path_dist, unit);
         if settings.mode == Mode::Ptp {
             settings.ptp = match (self.path_dev, self.path_dist) {
                 (Some(_), None) => PtpLimit::Deviation,
