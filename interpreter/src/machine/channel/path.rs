@@ -10,6 +10,7 @@ use kontur_motion::block::{
 };
 
 /// Dynamics of the path: slope, weighted limits, transitions and `#VECTOR LIMIT`.
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the list")]
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PathEntries {
     /// Slope at program start (P-CHAN-00071), default STEP.
