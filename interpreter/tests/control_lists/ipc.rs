@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Stages beyond the third and the spelling of the text; names of modes are rows of `lists/values_of_axes.txt`. Conformance: I002.
+/// Stages beyond the third and the spelling of the text; names of modes are rows of `lists/values_of_axes.txt`. Conformance: I002, I036.
 #[test]
 fn keys_of_the_stages() {
     let ipc = |more: &str| {
