@@ -41,11 +41,7 @@ impl Decoder {
     /// As above, and not between the two blocks of a contour line either.
     fn may_flush_here(&self, what: &str, span: Span) -> Outcome<()> {
         self.may_flush(what, span)?;
-        if self.motion.contour_line.is_open() {
-            let text = format!("{what} between the two blocks of a contour line (#ANG)");
-            return Err(Fault::new(Condition::FlushInContourLine, text, span));
-        }
-        Ok(())
+        self.motion.contour_line.may_flush(what, span)
     }
 
     /// The implicit `#FLUSH WAIT` of a word.

@@ -308,10 +308,7 @@ impl Decoder {
                 "external variable read before the motion that ends tool radius compensation";
             return Err(Fault::new(Condition::FlushAfterCompensation, text, read));
         }
-        if self.motion.contour_line.is_open() {
-            let text = "external variable read between the two blocks of a contour line (#ANG)";
-            return Err(Fault::new(Condition::FlushInContourLine, text, read));
-        }
+        self.motion.contour_line.may_flush("external variable read", read)?;
         if self.contour.has_contoured_corner() {
             self.note_lost_corner();
         }
