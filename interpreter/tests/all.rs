@@ -7,4 +7,5 @@ mod chains;
 mod control_lists;
 mod explain;
 mod filter_lists;
+mod lists;
 mod machines;

@@ -1,6 +1,5 @@
 //! Chains of the axes: the values of the lists arrive in mm and s, and every correction is reported.
 
-mod advice;
 mod listings;
 
 use kontur_filters::control::monitor::LagMonitorType;
@@ -25,9 +24,21 @@ impl ListFiles for Disk {
     }
 }
 
-fn load(name: &str, set: &[&str], added: &Disk) -> (Machine, Vec<Diagnostic>) {
+/// A machine with its messages, or those for which it is refused.
+type Read = Result<(Machine, Vec<Diagnostic>), Vec<Diagnostic>>;
+
+fn read_with(name: &str, set: &[&str], added: &Disk) -> Read {
     let set: Vec<Override> = set.iter().map(|text| Override::parse(text).unwrap()).collect();
-    Machine::load(added, &format!("{name}/hochlauf.lis"), &set).unwrap()
+    Machine::load(added, &format!("{name}/hochlauf.lis"), &set)
+}
+
+/// Reads a sample machine with settings.
+pub(crate) fn read(name: &str, set: &[&str]) -> Read {
+    read_with(name, set, &Disk::default())
+}
+
+fn load(name: &str, set: &[&str], added: &Disk) -> (Machine, Vec<Diagnostic>) {
+    read_with(name, set, added).unwrap()
 }
 
 /// A sample machine, and the messages about its lists.

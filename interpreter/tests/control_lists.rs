@@ -7,7 +7,7 @@ use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput, Fault};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
-use kontur_interpreter::diag::{Diagnostic, Severity};
+use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::ListKind;
 use kontur_interpreter::machine::{Machine, Override, lists};
 use kontur_kit::near;
@@ -203,38 +203,6 @@ fn both_inputs_of_a_profidrive() {
     near(additive.command_mm_s, 0.0, 1e-3);
     // whole counts: half a count of v_reso (1000 * 60 / 36 per mm/s) over Kv
     near(additive.lag_mm, 0.0, 0.5 / (1000.0 * 60.0 / 36.0) / 10.0);
-}
-
-/// P-AXIS-00320: the loop of a spindle may be open, that of a path axis may not; both are reported, as kontur keeps it closed.
-#[test]
-fn open_position_loops() {
-    for mode in ["MODE", "POS_FEEDBACK", "VEL_FEEDBACK", "NO_FEEDBACK"] {
-        let set = |axis: &str| format!("{axis}.antr.operation_mode=OPEN_POSITION_LOOP_{mode}");
-        let (_, found) = machine(&[set("S")]);
-        let told: Vec<_> = found.iter().map(|d| (d.id.to_string(), d.severity)).collect();
-        assert_eq!(told, [("K-0079".to_owned(), Severity::Warning)]);
-        let (_, found) = machine(&[set("X")]);
-        let told: Vec<_> = found.iter().map(|d| (d.id.to_string(), d.severity)).collect();
-        assert_eq!(told, [("70345".to_owned(), Severity::Error)]);
-    }
-}
-
-/// P-AXIS-00389, P-AXIS-00390, P-AXIS-00547 delay additive inputs; a delay without any use is reported.
-#[test]
-fn delays_without_an_additive_input() {
-    for (key, own) in [("velocity", "ADD_VEL"), ("acceleration", "ADD_ACC"), ("jerk", "ADD_JERK")] {
-        let told = |mode: &str| {
-            ids(&format!(
-                "X.vorsteuer.{key}_delay_time=150 X.vorsteuer.vorsteuerung={mode} \
-                 kontur.axis[1].additive.velocity=1 kontur.axis[1].additive.torque=1"
-            ))
-            .contains(&"K-0075".to_owned())
-        };
-        assert!(told("VEL|ACC|JERK"), "{key}");
-        assert!(!told(own), "{key}");
-        // without feedforward no effect is expected
-        assert!(!told("0x0"), "{key}");
-    }
 }
 
 /// The position that the controller reads goes in steps of the measuring system: `R = incr_per_rev i / f` of the manual's example, or

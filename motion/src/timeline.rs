@@ -22,6 +22,9 @@ use std::sync::Arc;
 /// Relative difference of lengths that counts as rounding.
 pub(crate) const SAME_LENGTH: f64 = 1e-12;
 
+/// Parts of a block whose ends are closer together than this, in mm, end at the same point.
+pub(crate) const SAME_END_MM: f64 = 1e-9;
+
 /// A moment: seconds after a cycle tick, kept as a sum with its rounding error.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Moment {

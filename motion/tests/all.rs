@@ -30,5 +30,4 @@ mod third_order_properties;
 mod third_order_reference;
 mod tilted;
 mod tolerance;
-mod tolerance_arcs;
 mod tolerance_curves;

@@ -24,43 +24,6 @@ fn straight(job: &Job, events: &[(u64, Event)]) -> Vec<Setpoint> {
     drive(job, &[0.0, 0.0], vec![line(job, 0, &[0.0, 0.0], &[100.0, 0.0], 100.0)], events).unwrap()
 }
 
-/// `L/v + v/a` (STEP), `+ t` (TRAPEZ and SIN2): 1000 mm/s2, ramps of 50 ms.
-#[test]
-fn constant_override_on_a_long_line() {
-    for (kind, ramp) in [(Step, 0.0), (Trapez, 0.05), (Sin2, 0.05)] {
-        for ratio in [0.05, 0.5, 0.9, 1.0, 1.3, 2.0] {
-            let out = straight(&Job::new(0.0, kind), &[(0, Event::Override(ratio))]);
-            let v = 100.0 * ratio;
-            // below 50 mm/s the plateau is not reached and the ramps are shorter
-            let leg = if v < 1000.0 * ramp {
-                2.0 * ramp * (v / (1000.0 * ramp)).sqrt()
-            } else {
-                v / 1000.0 + ramp
-            };
-            let duration = 100.0 / v + leg;
-            let cycles = (duration / 1e-3 - 1e-6).ceil() as usize;
-            assert_eq!(out.len() - 1, cycles, "{kind:?} {ratio}");
-            assert_eq!(out[cycles].position[0], 100.0);
-        }
-    }
-}
-
-/// From 100 to 50 mm/s at 500 ms. STEP: 0.1 s up (5 mm), 0.4 s at 100 (40 mm), 0.05 s down (3.75 mm), 50 mm/s over
-/// what is left but 1.25 mm, 0.05 s to rest: 50 mm, 1 s. TRAPEZ: 0.15 s (7.5 mm), 0.35 s (35 mm), down 0.1 s
-/// (7.5 mm), to rest 0.1 s (2.5 mm), left 47.5 mm, 0.95 s.
-#[test]
-fn lower_override_in_the_middle() {
-    for (kind, duration) in
-        [(Step, 0.1 + 0.4 + 0.05 + 1.0 + 0.05), (Trapez, 0.5 + 0.1 + 0.95 + 0.1)]
-    {
-        let out = straight(&Job::new(0.0, kind), &[(500, Event::Override(0.5))]);
-        assert_eq!(out.len() - 1, ((duration / 1e-3_f64) - 1e-6).ceil() as usize, "{kind:?}");
-        assert_eq!(out.last().unwrap().position[0], 100.0);
-        assert!((out[500].v_mm_s - 100.0).abs() < 1e-9);
-        assert!(out[501].v_mm_s < 100.0);
-    }
-}
-
 /// Way in mm from `v` and the deceleration `d` to `target` with zero acceleration, at 1000 mm/s2 with ramps of 50 ms;
 /// infinite where reducing the deceleration at once already leads below.
 fn braking_way(v: f64, d: f64, target: f64) -> f64 {
@@ -176,16 +139,6 @@ fn turning_the_knob_while_accelerating() {
     assert!(reached <= 260, "{reached}");
     let down = out.iter().skip(500).find(|p| p.v_mm_s < 10.001).unwrap().k;
     assert!(down <= 720, "{down}");
-}
-
-#[test]
-fn override_zero_is_a_standstill() {
-    let out = straight(
-        &Job::new(0.0, Trapez),
-        &[(500, Event::Override(0.0)), (1000, Event::Override(1.0))],
-    );
-    assert!(out[650..=1000].iter().all(|p| p.v_mm_s == 0.0 && p.limit.name() == "feed"));
-    assert_eq!(out.last().unwrap().position[0], 100.0);
 }
 
 /// Rapid 0 % stops at the end of the feed block before a rapid one, not before.

@@ -44,16 +44,6 @@ fn a_wait_that_cannot_end() {
     }
 }
 
-/// TF5200 diagnosis 110087: the control refuses a window of 0 and uses the default, 0.05 mm.
-#[test]
-fn a_window_of_zero_is_the_default() {
-    let run = run(G60, &["X.getriebe[0].window=0", "X.getriebe[0].position_settling_time=0"]);
-    assert_eq!(run.ids(), [110087]);
-    let begins = run.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
-    assert!(run.records[begins].axes[0].lag.abs() <= 0.05);
-    assert!(run.records[begins - 2].axes[0].lag.abs() > 0.05);
-}
-
 /// The trace ends when the axes have arrived; the totals say how long that took: ln(lag / window) / Kv within some cycles of the lag of
 /// the drive.
 #[test]

@@ -114,39 +114,6 @@ fn the_time_of_the_function() {
     assert_eq!(run.records.len(), of("channel.m_prozess_zeit[97]=0").records.len());
 }
 
-#[test]
-fn what_fails() {
-    let probe = [(0.0, "X_probe_mm", 120.0)];
-    // no signal on the block
-    assert_eq!(run_with_inputs(banding(&[]), ONE_BLOCK, &[]).errors(), ["K-0133"]);
-    // 60 mm to the end of the block
-    let long = ["channel.kasto_residual_path=600000"];
-    assert_eq!(run_with_inputs(banding(&long), ONE_BLOCK, &probe).errors(), ["50655"]);
-    // nothing left for braking
-    let none = ["channel.kasto_residual_path=0"];
-    assert_eq!(run_with_inputs(banding(&none), ONE_BLOCK, &probe).errors(), ["50655"]);
-    let on = [(0.0, "probe", 1.0)];
-    assert_eq!(run_with_inputs(banding(&[]), ONE_BLOCK, &on).errors(), ["50052"]);
-    let no_axis = ["X,Y.kenngr.kasto_achse=0"];
-    assert_eq!(run_with_inputs(banding(&no_axis), ONE_BLOCK, &probe).errors(), ["50398"]);
-    let one = ["Y.kenngr.kasto_achse=0"];
-    assert_eq!(run_with_inputs(banding(&one), ONE_BLOCK, &probe).errors(), ["50263"]);
-    let two = ONE_BLOCK.replace("M97", "M97 M98");
-    let both = ["channel.m_synch[98]=0x20"];
-    assert_eq!(run_with_inputs(banding(&both), &two, &probe).errors(), ["20156"]);
-    let over_blocks = ["channel.kasto_multi_block=1"];
-    assert_eq!(run_with_inputs(banding(&over_blocks), ONE_BLOCK, &probe).errors(), ["K-0019"]);
-    let nowhere = ONE_BLOCK.replace("X150 Y150 F1200\nN50", "X90 Y90 F1200\nN50");
-    assert_eq!(run_with_inputs(banding(&[]), &nowhere, &probe).errors(), ["K-0135"]);
-    // without G108, or after G107, M97 is an M function like any other
-    for off in [ONE_BLOCK.replace("G108", "G04 0.1"), ONE_BLOCK.replace("G108", "G108\nG107")] {
-        let run = run_with_inputs(banding(&[]), &off, &probe);
-        assert!(
-            run.errors().is_empty() && rests(&run, run.records.last().unwrap().line).is_empty()
-        );
-    }
-}
-
 /// Random lines with every slope and guard: the stop is where it must be, or the program reports why there is none.
 #[test]
 fn random_lines() {

@@ -3,7 +3,7 @@
 use kontur::Exit;
 use kontur_interpreter::diag::{Condition, Id};
 use kontur_tests::command::{command, run_line};
-use kontur_tests::{Run, from_polyline, machine, programs, run, run_on, sample_machine};
+use kontur_tests::{Run, machine, programs, run, run_on, sample_machine};
 use std::ops::RangeInclusive;
 
 fn text(name: &str) -> String {
@@ -69,103 +69,6 @@ fn slopes() {
                 "slope {profile}, lines {lines:?}: {is} s, {want} s expected"
             );
         }
-    }
-}
-
-/// Every change of speed in the program, the length that it takes from its block, and its time: at `a`, with ramps one more ramp time, or
-/// `2 t sqrt(dv / a t)` if the acceleration is not reached.
-#[test]
-fn late_braking() {
-    let (a, ramp_s, mm) = (3500.0, 0.03, 20.0);
-    let v = [150.0, 100.0, 75.0, 50.0, 25.0];
-    // for each block the changes of speed within it
-    let words: [&[(f64, f64)]; 5] = [
-        &[(0.0, v[0])],
-        &[(v[0], v[1]), (v[1], v[2])],
-        &[],
-        &[(v[2], v[3]), (v[3], v[4])],
-        &[(v[4], 0.0)],
-    ];
-    let g900: [&[(f64, f64)]; 5] = [
-        &[(0.0, v[0]), (v[0], v[1])],
-        &[(v[1], v[2])],
-        &[(v[2], v[3])],
-        &[(v[3], v[4])],
-        &[(v[4], 0.0)],
-    ];
-    let program = text("late_braking.nc");
-    let early = program.replace("G901", "G900");
-    for profile in 0..=2 {
-        let setting = format!("channel.prog_start.slope.profile={profile}");
-        for (program, changes) in [(&program, words), (&early, g900)] {
-            let blocks = v.iter().zip(changes).map(|(v, changes)| {
-                let legs = changes.iter().map(|(from, to)| {
-                    let dv = f64::abs(to - from);
-                    let time = match profile {
-                        0 => dv / a,
-                        _ if dv < a * ramp_s => 2.0 * ramp_s * (dv / (a * ramp_s)).sqrt(),
-                        _ => dv / a + ramp_s,
-                    };
-                    time * (1.0 - 0.5 * (from + to) / v)
-                });
-                mm / v + legs.sum::<f64>()
-            });
-            let want: f64 = blocks.sum();
-            let run = run(program, &setting);
-            assert!(run.ids().is_empty(), "{:?}", run.diagnostics);
-            let is = moving_s(&run, &(10..=14));
-            assert!(
-                is >= want - 1e-9 && is < want + 2.0 * run.cycle_s,
-                "slope {profile}: {is} s, {want} s expected"
-            );
-        }
-    }
-    let hsc = |program: &str| run(program, &["channel.prog_start.slope.profile=3"]);
-    let (late, early) = (hsc(&program), hsc(&early));
-    let notes: Vec<Id> = late.diagnostics.iter().map(|d| d.id).collect();
-    assert_eq!(notes, [Condition::Ignored]);
-    let way = |run: &Run| run.records.iter().map(|r| r.path.s_mm.to_bits()).collect::<Vec<_>>();
-    assert_eq!(way(&late), way(&early));
-}
-
-/// The distance of every curve from the corner, by the formulas of the contouring curve and of the B-spline; and the speed at the corner.
-#[test]
-fn corner_rounding() {
-    let run = run(&text("corner_rounding.nc"), &[]);
-    let sin45 = 0.5_f64.sqrt();
-    let (corner, point) = ([4.5, 0.0], [4.35, 0.15]);
-    let path = |first: u32| -> Vec<(Vec<f64>, f64)> {
-        let pass = run.records.iter().filter(|r| (first..=first + 1).contains(&r.line));
-        pass.map(|r| (vec![r.axes[0].ipo, r.axes[1].ipo], r.path.v_mm_s)).collect()
-    };
-    for (first, near, want) in [
-        (11, corner, 0.0),
-        (14, corner, 0.0),
-        (18, corner, 0.15),
-        (22, corner, 0.375 * sin45),
-        (26, point, 0.0),
-        (30, corner, 0.375 * 0.4 * sin45),
-        (35, corner, 0.1),
-    ] {
-        let points: Vec<Vec<f64>> = path(first).into_iter().map(|(p, _)| p).collect();
-        let to = from_polyline(&near, &points);
-        let least = libm::hypot(to[0], to[1]);
-        // the samples lie on either side of a corner, or of the middle of a curve
-        let chord = if first == 14 { 2e-3 } else { 5e-4 };
-        assert!((least - want).abs() < chord, "line {first}: {least} mm, {want} mm expected");
-    }
-    let slowest = |first: u32| {
-        let near = |p: &[f64]| libm::hypot(p[0] - corner[0], p[1] - corner[1]) < 0.5;
-        let speeds = path(first).into_iter().filter(|(p, _)| near(p)).map(|(_, v)| v);
-        speeds.fold(f64::INFINITY, f64::min)
-    };
-    assert!(slowest(11).abs() <= 0.0);
-    // both axes change by v within a cycle: 3500 mm/s2 for 1 ms
-    assert!((3.5 - 1e-9..3.6).contains(&slowest(14)), "{}", slowest(14));
-    // on the curve v^3 times its third derivative is at most a / tr_geom; 0.345424 / mm2 with a deviation of 1 mm
-    for (first, dev) in [(18, 0.15), (22, 0.375 * sin45)] {
-        let want = libm::cbrt(3500.0 / 0.01 * dev * dev / 0.345_424);
-        assert!((slowest(first) - want).abs() < 1e-3, "{} mm/s, {want}", slowest(first));
     }
 }
 

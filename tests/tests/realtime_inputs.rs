@@ -9,30 +9,6 @@ fn x_at(run: &Run, time_s: f64) -> f64 {
     run.records[k.min(run.records.len() - 1)].axes[0].ipo
 }
 
-/// With ramps of 30 ms and 3500 mm/s2 the change from 100 to 50 mm/s reaches no constant acceleration: it takes
-/// `2 sqrt(50 / j)` with `j = 3500 / 0.03`, at 75 mm/s in the mean.
-#[test]
-fn override_with_jerk_limit() {
-    let program = "%P\nG90 G01 X100 F6000\nM30\n";
-    let run = run_with_inputs(machine(&[]), program, &[(0.5, "override_percent", 50.0)]);
-    let plain = run_with_inputs(machine(&[]), program, &[]);
-    near(x_at(&run, 0.5), x_at(&plain, 0.5), 1e-9);
-    let change_s = 2.0 * (50.0 * 0.03 / 3500.0_f64).sqrt();
-    near(x_at(&run, 0.6), x_at(&plain, 0.5) + 75.0 * change_s + 50.0 * (0.1 - change_s), 1e-9);
-}
-
-/// A time stamp between two cycles takes effect in the later one, one that falls on a cycle in that cycle.
-#[test]
-fn time_stamps_between_cycles() {
-    let program = "%P\nG04 0.1\nM30\n";
-    let on = ["X.lr_param.add_interface.enable=1"];
-    for (time_s, first) in [(0.01, 10), (0.0101, 11), (0.0109, 11), (0.011, 11)] {
-        let run = run_with_inputs(machine(&on), program, &[(time_s, "X_add_mm", 0.01)]);
-        let added = run.axis(0, |a| a.add);
-        assert_eq!(added.iter().position(|x| *x > 0.0), Some(first));
-    }
-}
-
 /// The additional interface with the settings after `filter[0]`, and a step of 1 mm in cycle 10.
 fn additional(filter: &str) -> Run {
     let prefix = "X.lr_param.add_interface";

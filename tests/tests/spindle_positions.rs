@@ -45,25 +45,6 @@ fn a_turning_spindle_is_positioned_in_its_direction() {
     assert!(run.spindle_rpm(5).iter().all(|v| *v <= 1e-9));
 }
 
-/// S[G130=70]: what is driven at full acceleration takes 1 / 0.7 of the time.
-#[test]
-fn the_acceleration_of_a_spindle_is_weighed() {
-    let ramp_s = |text: &str| {
-        let run = run(&format!("%P\n{text}\nM3 S6000\nG04 3\nM30\n"), &[]);
-        assert_eq!(run.diagnostics, []);
-        let slow = run.records.windows(2).filter(|w| {
-            let v = (w[1].axes[3].set - w[0].axes[3].set) / run.cycle_s / 6.0;
-            v > 1.0 && v < 5999.0
-        });
-        slow.count() as f64 * run.cycle_s
-    };
-    let (full, weighed) = (ramp_s(""), ramp_s("S[G130=70]"));
-    assert!(full > 0.3, "{full}");
-    // the ramp times stay as they are
-    let longer = 36_000.0 / 60_000.0 * (1.0 / 0.7 - 1.0);
-    assert!((weighed - full - longer).abs() < 4e-3, "{weighed} {full}");
-}
-
 /// Ramp times in us (up, down, of speeding up and of braking), acceleration and deceleration 60000 deg/s2.
 fn ramps([up, on, down, off]: [u32; 4]) -> String {
     format!(

@@ -3,7 +3,7 @@
 use kontur::Exit;
 use kontur_kit::{Random, count, seed};
 use kontur_tests::command::command;
-use kontur_tests::{machine, run, run_with_inputs};
+use kontur_tests::{machine, run_with_inputs};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
@@ -194,16 +194,6 @@ fn timers_measure_program_time() {
     }
 }
 
-/// The path does not stop for a timer that is started or stopped with SYN.
-#[test]
-fn a_timer_does_not_stop_the_path() {
-    let text = |timer: &str| format!("%P\nG01 X10 F3000\n{timer}X20\nX30\nM30\n");
-    let with = kontur_tests::run(&text("#TIMER START SYN [ID=1]\n"), &[]);
-    let without = kontur_tests::run(&text(""), &[]);
-    assert_eq!(with.diagnostics, []);
-    assert_eq!(with.records.len(), without.records.len());
-}
-
 /// A program runs from top to bottom, and so does the column `line`, whatever waits for what: the waits of a motion belong to it, and
 /// those after another block no longer do.
 #[test]
@@ -239,18 +229,4 @@ fn lines_never_go_back() {
         let lines: Vec<u32> = run.records.iter().skip(1).map(|r| r.line).collect();
         assert!(lines.is_sorted(), "{n}\n{text}");
     }
-}
-
-/// A single axis that moves alone, after a dwell: its cycles count for its own line.
-#[test]
-fn an_independent_motion_has_its_line() {
-    let run =
-        run("%P\nG01 F6000 X20\nG04 0.1\nX[INDP_SYN G90 G01 FEED=600 POS=10]\nX40\nM30\n", &[]);
-    let moving = run.records.windows(2).filter(|r| {
-        let step = r[1].axes[0].ipo - r[0].axes[0].ipo;
-        step < -1e-9
-    });
-    let lines: Vec<u32> = moving.map(|r| r[1].line).collect();
-    // 10 mm at 10 mm/s
-    assert!(lines.len() > 1000 && lines.iter().all(|line| *line == 4), "{lines:?}");
 }

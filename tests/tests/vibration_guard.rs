@@ -2,7 +2,7 @@
 
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_tests::{Run, Settings, largest_step, run, run_on, sample_machine};
+use kontur_tests::{Run, Settings, run, run_on, sample_machine};
 
 /// Square of 1 mm from the present position of the axes, at F4000.
 const SQUARE: &str = "G01 X0 Y1 F4000\nX1 Y1\nX1 Y0\nX0 Y0";
@@ -13,13 +13,6 @@ fn program(lines: &[&str]) -> String {
 
 fn on(lines: &[&str], settings: impl Settings) -> Run {
     run(&program(lines), settings)
-}
-
-/// Names of the axes in errors.
-fn refused_for(run: &Run) -> Vec<String> {
-    assert!(run.totals.aborted, "{:?}", run.diagnostics);
-    let errors = run.diagnostics.iter().filter(|d| d.is_error());
-    errors.map(|d| d.axis.as_ref().map_or("?".to_owned(), |a| a.name.clone())).collect()
 }
 
 fn largest(run: &Run, f: impl Fn(&kontur_interpreter::record::CycleRecord) -> f64) -> f64 {
@@ -134,70 +127,6 @@ fn lists_and_program() {
     near(run.delay_cycles(3), kernel_delay(1, 30.0, 0.1));
     near(run.delay_cycles(5), kernel_delay(4, 50.0, 0.1));
     near(run.delay_cycles(7), 0.0);
-}
-
-/// On, other values, off between blocks: no jump, every block ends where it should. Conformance: V030.
-#[test]
-fn switching_between_blocks() {
-    let run = on(
-        &[
-            "G01 X10 F6000",
-            "#VIB GUARD ON",
-            "X20",
-            "#VIB GUARD ON [FREQ=20]",
-            "X30",
-            "#VIB GUARD OFF",
-            "X40",
-        ],
-        &[],
-    );
-    assert_eq!(run.diagnostics, []);
-    let (ipo, set) = (run.axis(0, |a| a.ipo), run.axis(0, |a| a.set));
-    assert!(largest_step(&set) <= largest_step(&ipo) + 1e-12);
-    assert!(set.is_sorted(), "never back");
-    for end in [10.0_f64, 20.0, 30.0, 40.0] {
-        assert!(set.iter().any(|x| x.to_bits() == end.to_bits()), "{end}");
-    }
-}
-
-/// `#FILTER` and `#VIB GUARD` in one program, in either order and through subroutines. Conformance: V032, V033.
-#[test]
-fn both_commands_in_one_program() {
-    for (first, second) in [
-        ("#FILTER ON [ORDER=20]", "#VIB GUARD ON"),
-        ("#VIB GUARD ON", "#FILTER ON [ORDER=20]"),
-        ("#VIB GUARD ON", "#FILTER ON[HSC]"),
-        ("#FILTER ON[HSC]", "#VIB GUARD OFF"),
-    ] {
-        let run = on(&[first, second, "G01 X1 F1000"], &[]);
-        assert!(run.ids().contains(&22060), "{first} {second}: {:?}", run.diagnostics);
-        let conflict = run.diagnostics.iter().find(|d| d.id.to_string() == "22060").unwrap();
-        assert_eq!(conflict.source.as_ref().unwrap().line, 4);
-        assert!(run.records.is_empty() && run.totals.aborted);
-    }
-    let text = "%L SUB\nN10 #FILTER ON[HSC]\nN20 M17\n%MAIN\nN10 #VIB GUARD ON\nN20 LL SUB\nN30 G01 X1 F1000\nN40 M30\n";
-    let run = run(text, &[]);
-    assert!(run.ids().contains(&22060), "{:?}", run.diagnostics);
-}
-
-/// FIR filter and guard in one axis, and commands against lists: an error that names the axis. FIR in one axis, guard
-/// in another: both act. Conformance: V031, V034, V035, V036, V037.
-#[test]
-fn conflicts_with_lists() {
-    let (fir, motion) = ("X.filter_fir: enable=1, type=1, order=20", "G01 X10 Y10 F6000");
-    let [x, y] = ["X", "Y"].map(|axis| format!("{fir}; {axis}.vib_guard.active=1"));
-    assert!(refused_for(&on(&[motion], &x)).contains(&"X".to_owned()));
-    let filter = on(&["#FILTER ON [ORDER=20]", motion], "Y.vib_guard.active=1");
-    assert!(refused_for(&filter).contains(&"Y".to_owned()));
-    let command = on(&["#VIB GUARD ON", motion], "Y.filter_fir.type=1");
-    assert!(refused_for(&command).contains(&"Y".to_owned()));
-    let allowed = on(&[motion], &y);
-    assert!(!allowed.totals.aborted, "{:?}", allowed.diagnostics);
-    assert!(!allowed.is_unshaped(0) && !allowed.is_unshaped(1));
-    for command in ["#VIB GUARD OFF", "#FILTER OFF"] {
-        let both = on(&[command, motion], &y);
-        assert!(!refused_for(&both).is_empty(), "{command}");
-    }
 }
 
 /// Axis exchange switches the guard of the program off; that of the list stays on. Conformance: V039, V040, V041.

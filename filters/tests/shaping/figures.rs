@@ -107,7 +107,7 @@ fn the_prototype_matters_little_for_bands() {
 
 /// Bandwidth `f0 / Q` and edges of band filters at any `f0 T`, found on the magnitude itself: f0 100 Hz, Q 1 and T 1 ms
 /// had a real Q of 1.099. At 20 Hz the edges are those that the document's figures show, and f0 is their geometric mean.
-/// Conformance: A035, A036, A037, A040, A041, A042.
+/// Conformance: A035, A036, A037, A039, A040, A041, A042.
 #[test]
 fn band_filters_keep_their_quality() {
     for kind in [FilterKind::BandPass, FilterKind::BandStop] {
@@ -180,7 +180,7 @@ fn ringing_of_band_stops() {
     }
 }
 
-/// Figure 9 and text: gain 1, falling phase; BESSEL delays evenly. Conformance: A020, A051, A054.
+/// Figure 9 and text: gain 1, falling phase; BESSEL delays evenly. Conformance: A020, A051, A052, A054.
 #[test]
 fn all_passes() {
     for prototype in Prototype::ALL {

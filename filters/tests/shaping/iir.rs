@@ -95,7 +95,8 @@ fn magnitude_phase_and_delay_of_the_reference() {
     }
 }
 
-/// Overshoot, settling and steepest slope of every prototype and order. Conformance: A025, A026, A028, A061.
+/// Overshoot, settling and steepest slope of every prototype and order.
+/// Conformance: A025, A026, A028, A030, A061, A117, A118, A119.
 #[test]
 fn step_responses_of_the_reference() {
     for row in rows("axis_filters_reference") {
@@ -239,6 +240,7 @@ fn a_second_order_lag_is_two_first_order_lags() {
     }
 }
 
+/// Conformance: A058, A061.
 #[test]
 fn lags_are_low_passes_of_their_time_constant() {
     let f_hz = 1e6 / (2.0 * PI * 5000.0);
@@ -313,7 +315,7 @@ fn group_delay_is_the_slope_of_the_phase() {
     }
 }
 
-/// Conformance: A023, A065.
+/// Conformance: A023, A065, A067.
 #[test]
 fn a_whole_time_delay_shifts_bit_for_bit() {
     for cycles in 0..6_u32 {

@@ -248,7 +248,7 @@ fn the_symmetric_mode_repeats_the_path_backwards() {
 }
 
 /// 5 % residual at damping 0.1: the printed limits of each mode, as set over real frequency, and what is left there.
-/// Conformance: V010, V012, V013, V014, V015.
+/// Conformance: V010, V012, V013, V014, V015, V016.
 #[test]
 fn printed_limits_of_the_modes() {
     let mut width = 0.0;

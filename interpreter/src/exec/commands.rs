@@ -15,6 +15,7 @@ mod couplings;
 mod drives;
 mod exceptions;
 mod files;
+mod flush;
 mod frames;
 pub(in crate::exec) mod keys;
 mod manual;
@@ -79,7 +80,7 @@ const ROWS: &[Row] = &[
     path_limits::TRANSVELMIN,
     path_limits::OVERRIDE,
     // waiting and synchronisation
-    misc::FLUSH,
+    flush::FLUSH,
     misc::CHANNEL_INIT,
     run("SET DEC LR SOLL", misc::take_command_positions).bare(),
     positions::GET_CMDPOS,

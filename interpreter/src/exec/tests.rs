@@ -8,12 +8,10 @@ mod compensation;
 mod errors;
 mod feed_course;
 mod flow;
-mod frames;
 mod modes;
 mod radius_change;
 mod random;
 mod said;
-mod scaling;
 mod shaping;
 mod straight;
 mod tables;
@@ -143,29 +141,11 @@ pub(super) fn run_on(settings: &[&str], text: &str) -> Run {
     run_with(MemorySources::new().with("main.nc", text), machine(settings), Options::default())
 }
 
-/// IDs raised by a text, to which M30 is appended.
-pub(super) fn said(text: &str) -> Vec<String> {
-    run(&format!("{text}\nM30\n")).ids()
-}
-
 /// Runs a text without diagnostics; any diagnostic fails the test.
 pub(super) fn clean(text: &str) -> Run {
     let run = run(text);
     assert!(run.diagnostics.is_empty(), "{text}: {:?}", shown(&run.diagnostics));
     run
-}
-
-/// Points of every motion of a program.
-pub(super) fn points(text: &str) -> Vec<[f64; 3]> {
-    let mut points = Vec::new();
-    for block in clean(text).blocks() {
-        for share in [0.0, 0.2, 0.5, 0.9, 1.0] {
-            let mut q = [0.0; 3];
-            block.path.position(share * block.path.length(), &mut q);
-            points.push(q);
-        }
-    }
-    points
 }
 
 pub(super) fn shown(diagnostics: &[Diagnostic]) -> Vec<String> {

@@ -2,7 +2,7 @@ mod reactions;
 
 use super::table::kontur;
 use super::*;
-use crate::diag::{Condition, Diagnostic, Severity};
+use crate::diag::{Condition, Diagnostic};
 use kontur_motion::block::{SlopeKind, TransitionJerkMode};
 use std::collections::BTreeMap;
 

@@ -36,25 +36,6 @@ fn feedforward_of_an_axis() {
     near(feedforward.gain(false, 1.0), 1.0, 0.0);
 }
 
-/// Notation of the flags: names, numbers. Conformance: F049, F057, F073.
-#[test]
-fn feedforward_flags() {
-    let mode = |text: &str| {
-        let (machine, _) = machine(&[
-            format!("X.vorsteuer.vorsteuerung={text}"),
-            "kontur.axis[1].additive.velocity=1".to_owned(),
-            "kontur.axis[1].additive.torque=1".to_owned(),
-        ]);
-        machine.chains().0.swap_remove(0).control.feedforward.mode
-    };
-    assert_eq!(mode("VEL | ACC"), mode("3"));
-    assert_eq!(mode("VEL | ACC"), mode("0x3"));
-    assert_eq!(mode("0x101"), mode("ADD_VEL"));
-    assert_eq!(mode("0x202"), mode("ADD_ACC"));
-    assert_eq!(mode("ADD_VEL | ADD_ACC"), mode("0x303"));
-    assert_ne!(mode("VEL"), mode("ADD_VEL"));
-}
-
 /// Weight of the velocity alone, and a weight above 1 that makes the axis lead. Conformance: F007, F012.
 #[test]
 fn weights_of_feedforward() {

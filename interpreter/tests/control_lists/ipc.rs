@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Modes by name and number; stages beyond the third and the spelling of the text. Conformance: I002, I005, I036.
+/// Stages beyond the third and the spelling of the text; names of modes are rows of `lists/values_of_axes.txt`. Conformance: I002, I036.
 #[test]
 fn keys_of_the_stages() {
     let ipc = |more: &str| {
@@ -10,15 +10,6 @@ fn keys_of_the_stages() {
         assert_eq!(found, []);
         machine.chains().0.swap_remove(0).control.ipc
     };
-    let mode = |mode: &str| {
-        ipc(&format!("{IPC}.stage[0].filter[0].damping=0.2 {IPC}.stage[0].mode={mode}"))
-    };
-    for (number, name) in
-        [("0", "NOT_ACTIVE"), ("1", "DIRECT"), ("2", "INDIRECT"), ("3", "SET_POINT")]
-    {
-        assert_eq!(mode(number), mode(name));
-    }
-    assert_ne!(mode("1"), mode("2"));
     let three: Vec<String> = (1..3)
         .map(|i| {
             let stage = format!("{IPC}.stage[{i}]");
@@ -39,23 +30,6 @@ fn keys_of_the_stages() {
     };
     said("stage[3].mode 1");
     assert!(said("stages[0].mode 1").contains("stage[i].mode"), "{}", said("stages[0].mode 1"));
-}
-
-/// Values at the ends of their ranges are taken. Conformance: I037, I038, I040, I041, I043.
-#[test]
-fn ends_of_the_ranges_of_stages() {
-    let filter = format!("{IPC}.stage[0].filter[0]");
-    let indirect = format!("{IPC}.stage[0].mode=2 {filter}.damping");
-    for more in [
-        format!("{filter}.order=3"),
-        format!("{filter}.q_factor=1"),
-        format!("{filter}.fg_f0=500 kontur.cycle_time_us=500"),
-        format!("{indirect}=0.999"),
-        format!("{filter}.damping=1"),
-    ] {
-        assert_eq!(ids(&stage(&more)), [""; 0], "{more}");
-    }
-    assert_eq!(ids(&stage(&format!("{filter}.fg_f0=500.1 kontur.cycle_time_us=500"))), ["K-0025"]);
 }
 
 /// Of X alone; the limit P-AXIS-00757 is a share of P-AXIS-00212; disabled, the axis is like one without.

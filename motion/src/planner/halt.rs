@@ -5,10 +5,10 @@
 //! program.
 
 use super::Planner;
-use super::replan::{GENTLER, SAME_END_MM};
+use super::replan::GENTLER;
 use crate::deviation::What;
 use crate::plan::Segment;
-use crate::timeline::Entry;
+use crate::timeline::{Entry, SAME_END_MM};
 use std::sync::Arc;
 
 impl Planner {

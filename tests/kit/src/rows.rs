@@ -31,7 +31,7 @@ pub fn settings(text: &str) -> Vec<String> {
 }
 
 /// Lines of a program from the form that it has in a row.
-fn lines(text: &str) -> String {
+pub fn lines(text: &str) -> String {
     text.replace(" | ", "\n") + "\n"
 }
 

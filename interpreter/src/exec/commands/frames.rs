@@ -3,8 +3,8 @@
 //! Source: TF5200 programming manual, coordinate systems (208480907); P-CHAN-00394 (rotations ZYX); 20671, 20676, 20825,
 //! 20875, 21556.
 
+use super::flush::may_flush;
 use super::keys::arguments;
-use super::misc::may_flush;
 use super::refused::numbers_of;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};

@@ -8,7 +8,7 @@
 //! (251764107).
 
 use super::axes::of_logical_number;
-use super::misc::may_flush;
+use super::flush::may_flush;
 use super::row::{Call, Row};
 use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;

@@ -1,9 +1,10 @@
-//! Waiting, flushing, timers, files, macros, machine data, modal cycles.
+//! Waiting, timers, files, macros, machine data, modal cycles.
 //!
 //! Source: TF5200 programming manual.
 
 use super::axes::of_logical_number;
 use super::drives::{Driven, driven};
+use super::flush::may_flush;
 use super::keys::arguments;
 use super::range::between;
 use super::row::{Call, Row};
@@ -13,61 +14,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::TimerAct;
 use crate::exec::step::{Event, Sync};
 use crate::machine::table::axis_key;
-use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue, Span};
-
-/// Row of `#FLUSH`.
-pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
-    .bare()
-    .form("#FLUSH, #FLUSH CONTINUE, #FLUSH WAIT")
-    .meaning("stops at the end of the preceding block; with CONTINUE only if no further blocks are known, and the corner is not contoured")
-    .example("#FLUSH WAIT");
-
-/// 120102: a B-spline ends only at its own commands.
-///
-/// Source: TF5200 programming manual 207042443, diagnosis 264284811.
-pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
-    decoder.may_flush(&call.title(), call.span())
-}
-
-impl Decoder {
-    fn may_flush(&self, what: &str, span: Span) -> Outcome<()> {
-        if self.contour.hsc.on && !self.contour.hsc.rounds_corners {
-            let text = format!("{what} while #HSC [BSPLINE] is active");
-            return Err(Fault::new(Condition::FlushInSpline, text, span));
-        }
-        Ok(())
-    }
-
-    /// As above, and not between the two blocks of a contour line either.
-    fn may_flush_here(&self, what: &str, span: Span) -> Outcome<()> {
-        self.may_flush(what, span)?;
-        if self.motion.contour_line.is_open() {
-            let text = format!("{what} between the two blocks of a contour line (#ANG)");
-            return Err(Fault::new(Condition::FlushInContourLine, text, span));
-        }
-        Ok(())
-    }
-
-    /// The implicit `#FLUSH WAIT` of a word.
-    pub(in crate::exec) fn flush_before(&mut self, what: &str, span: Span) -> Outcome<()> {
-        self.may_flush_here(what, span)?;
-        self.sync(Sync::FlushWait);
-        Ok(())
-    }
-}
-
-/// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
-fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    decoder.may_flush_here(&call.title(), call.span())?;
-    match call.rest {
-        [] => decoder.sync(Sync::Stop),
-        [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
-        // no stop while further blocks are available; the corner is not contoured (207042443)
-        [word] if word.is("CONTINUE") => decoder.contour.keep_corner(),
-        [word, ..] => return Err(call.unexpected(word)),
-    }
-    Ok(())
-}
+use crate::syntax::ast::{ExprKind, Ident, ItemKind, ItemValue};
 
 /// Row of `#CHANNEL INIT`.
 pub(super) const CHANNEL_INIT: Row = Row::run("CHANNEL INIT", channel_init)

@@ -43,7 +43,7 @@ pub(super) const GET_ACTPOS: Row = Row::run("GET ACTPOS", actual_positions)
     .related(&["#GET CMDPOS", "#CHANNEL INIT", "20186"]);
 
 fn command_positions(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    super::misc::may_flush(decoder, call)?;
+    super::flush::may_flush(decoder, call)?;
     decoder.sync(Sync::FlushWait);
     assign(decoder, call, |d, axis| d.geometry.coordinates.target()[axis])
 }

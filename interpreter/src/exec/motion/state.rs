@@ -15,8 +15,10 @@ use self::measuring::Measuring;
 use self::wear::OnlineCompensation;
 use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
+use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
 use crate::exec::contour::Corner;
+use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::{Event, SourceRef};
 use crate::machine::{Acknowledged, Channel, Machine, SpindleMoment};
@@ -172,6 +174,15 @@ impl ContourLines {
     /// Whether a first line still lacks its second one.
     pub(in crate::exec) fn is_open(&self) -> bool {
         self.open.is_some()
+    }
+
+    /// 21909: the channel is not emptied between the two blocks of a contour line.
+    pub(in crate::exec) fn may_flush(&self, what: &str, span: Span) -> Outcome<()> {
+        if self.is_open() {
+            let text = format!("{what} between the two blocks of a contour line (#ANG)");
+            return Err(Fault::new(Condition::FlushInContourLine, text, span));
+        }
+        Ok(())
     }
 }
 

@@ -63,21 +63,6 @@ fn the_example_with_a_start_tangent() {
     }
 }
 
-/// Points on a line give a line, whatever their distances; a spline through two points is also a line.
-#[test]
-fn straight_points_stay_straight() {
-    for text in ["G151\nX1 Y2\nX3 Y6\nX4 Y8\nX10 Y20\nG150", "G151\nX1 Y2\nX3 Y6\nG150"] {
-        let run = clean(&format!("F1000\n{text}\nM30\n"));
-        for block in run.blocks() {
-            let mut at = block.path.start().clone();
-            for k in 0..=10 {
-                block.path.position(block.path.length() * f64::from(k) / 10.0, &mut at);
-                assert!((at[1] - 2.0 * at[0]).abs() < 1e-9, "{at:?}");
-            }
-        }
-    }
-}
-
 /// TANGENTIAL uses the directions of the motions before and after; an arc between points always does.
 #[test]
 fn tangential_transitions() {

@@ -1,49 +1,6 @@
-//! Arcs and helices as paths of the axes.
+//! Curves through points outside the limits, and roundings at the end of a motion.
 
-use super::{assert_near, clean};
-use kontur_motion::path::Path;
-use std::f64::consts::PI;
-
-#[test]
-fn arcs_in_a_tilted_coordinate_system() {
-    // rotated by 30 degrees about Y: X = x cos + z sin, Z = z cos - x sin
-    let (s, c) = (0.5, 0.75_f64.sqrt());
-    let at = |path: &Path, share: f64| {
-        let mut q = [0.0; 3];
-        path.position(share * path.length(), &mut q);
-        q
-    };
-    let run = clean("#CS ON [1,2,3,0,30,0]\nG00 X0 Y0 Z0\nG02 X10 I5 F100\nM30\n");
-    let path = &run.blocks()[1].path;
-    assert!((path.length() - 5.0 * PI).abs() < 1e-9);
-    assert_near(&at(path, 0.5), &[1.0 + 5.0 * c, 7.0, 3.0 - 5.0 * s]);
-    assert_near(&run.end, &[1.0 + 10.0 * c, 2.0, 3.0 - 10.0 * s]);
-    // by radius, with absolute centre, mirrored and as helices: the same midpoint
-    let middle = |text: &str| {
-        let run = clean(&format!("#CS ON [0,0,0,0,30,0]\n{text}\nM30\n"));
-        at(&run.blocks().last().unwrap().path, 0.5)
-    };
-    assert_near(&middle("G02 X10 R5 F100"), &[5.0 * c, 5.0, -5.0 * s]);
-    assert_near(&middle("G161 G02 X10 I5 J0 F100"), &[5.0 * c, 5.0, -5.0 * s]);
-    assert_near(&middle("G03 X10 I5 F100"), &[5.0 * c, -5.0, -5.0 * s]);
-    assert_near(&middle("G02 I5 F100"), &[10.0 * c, 0.0, -10.0 * s]);
-    assert_near(&middle("G02 X10 Z4 I5 F100"), &[5.0 * c + 2.0 * s, 5.0, 2.0 * c - 5.0 * s]);
-    // two and a half turns with pitch 4
-    assert_near(&middle("G02 X10 Z10 I5 K4 F100"), &[5.0 * c + 5.0 * s, 5.0, 5.0 * c - 5.0 * s]);
-    assert_near(&middle("G91 G02 X10 I5 F100"), &[5.0 * c, 5.0, -5.0 * s]);
-    assert_near(&middle("G71 G21\nG02 X10 I5 F100"), &[-5.0 * c, 5.0, 5.0 * s]);
-    assert_near(&middle("#ROTATION ON [ANGLE=90]\nG02 X10 I5 F100"), &[-5.0 * c, 5.0, 5.0 * s]);
-    // in a plane that is not tilted, the arc is an arc of the axes
-    let flat = clean("#CS ON [0,0,0,0,30,0]\nG18 G02 X10 I5 F100\nM30\n");
-    assert!(matches!(flat.blocks()[0].path, Path::Arc(_)));
-    // all three angles: R = Rz(20) Ry(30) Rx(40), the second column is the image of y
-    let (sx, cx) = libm::sincos(40.0_f64.to_radians());
-    let (sz, cz) = libm::sincos(20.0_f64.to_radians());
-    let run = clean("#CS ON [0,0,0,40,30,20]\nG02 X10 I5 F100\nM30\n");
-    let (x, y) = ([cz * c, sz * c, -s], [cz * s * sx - sz * cx, sz * s * sx + cz * cx, c * sx]);
-    let expected: Vec<f64> = (0..3).map(|i| 5.0 * x[i] + 5.0 * y[i]).collect();
-    assert_near(&at(&run.blocks()[0].path, 0.5), &expected);
-}
+use super::clean;
 
 /// The curve of `#CONTOUR MODE [POS]` reaches its interim point, which is outside the range of the adjacent lines. A check and
 /// a run both report it, for the block that ends at the curve. With the limit beyond the curve, and in the other modes, nothing

@@ -1,6 +1,6 @@
 //! Error IDs with their positions, the syntax check, and the example programs of the language chapter.
 
-use super::{assert_near, checked, clean, places, run};
+use super::{assert_near, checked, places, run};
 
 #[test]
 fn the_check_stops_after_twenty_errors() {
@@ -126,52 +126,6 @@ fn external_variables_keep_their_rights() {
     assert_eq!(places("V.E.W=1\nV.E.B=V.E.R\nX V.E.B F100\nM30\n"), [""; 0]);
     assert_eq!(places("X V.E.W F100\nM30\n"), ["20097 1:3"]);
     assert_eq!(places("V.E.R=1\nM30\n"), ["20100 1:1"]);
-}
-
-/// A number written directly after its key, as the manual writes interim points.
-#[test]
-fn keys_with_their_numbers() {
-    let point = |text: &str| {
-        let run = clean(&format!("#CONTOUR MODE [POS {text}]\nG61 X10 F100\nY10\nM30\n"));
-        let mode = run.blocks()[0].contour.map(|c| c.mode);
-        format!("{mode:?}")
-    };
-    assert!(point("X9.7 Y.3").contains("9.7"));
-    for text in ["X9.7 Y0.3", "X9.7 Y=0.3", "X 9.7 Y 0.3"] {
-        assert_eq!(point(text), point("X=9.7 Y=0.3"), "{text}");
-    }
-    let unit = |text: &str| clean(&format!("{text}\nG61 X10 F100\nM30\n")).blocks()[0].contour;
-    assert_eq!(unit("#CONTOUR MODE [DEV PATH_DEV0.5]"), unit("#CONTOUR MODE [DEV PATH_DEV=0.5]"));
-}
-
-/// The details of a message or its hint beyond its ID: the intended name, the limit, the position, the parameter.
-#[test]
-fn what_messages_name() {
-    let slot = "V.G.WZ[1].R=2\nG26 D1 F100\nG41 X-5 Y20\nX20\nY12\nX15\nY4\nX28\nY12\nX23\nY20\nX50\nG40 Y30";
-    for (setting, text, named) in [
-        ("", "%L SIDE\nX1\n%MAIN\nLL SIDES", &["SIDE"][..]),
-        ("", "L CYCLE [NAME=SysDrill1.ecy @P1=2]", &["vendor's library", "searched"]),
-        ("", "#VIB GUARD OFF [FREQ=6 MODE=2 AX_DEV=0.01]\n#VIB GUARD ON", &["AX_DEV"]),
-        (
-            "",
-            "X[OSC ON 1ST_POS=-10 2ND_POS=10 FREQ=1 NBR_OSC=0]",
-            &["NBR_OSC=0", "1 to 4294967295"],
-        ),
-        ("", slot, &["line 10", "1.0000 mm"]),
-        ("", "N10 \"A\" = \"COS[\"\nN20 X\"A\" F100", &["N20"]),
-        ("Y.kenngr.swe_pos=95000", "G00 X10\nG03 X-10 I-10 F100", &["highest position 10"]),
-        ("channel.start_init_prog_file=init.nc", "X2 F100", &["P-CHAN-00119"]),
-        ("channel.final_prog_file=final.nc", "X1 F100", &["P-CHAN-00252"]),
-        ("channel.p_param_haltend=1", "X P1 F100", &["P-CHAN-00067"]),
-        ("channel.prog_start.g_gruppe[8].nr=51", "", &["P-CHAN-00063"]),
-    ] {
-        let settings: Vec<&str> = Some(setting).filter(|s| !s.is_empty()).into_iter().collect();
-        let run = super::run_on(&settings, &format!("{text}\nM30\n"));
-        let message = &run.diagnostics[0];
-        let block = message.source.as_ref().and_then(|at| at.block).unwrap_or_default();
-        let whole = format!("{} {:?} {:?} N{block}", message.text, message.hint, message.parameter);
-        assert!(named.iter().all(|name| whole.contains(name)), "{text}: {whole}");
-    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! `#VIB GUARD` and `#FILTER`: keys, persistence, conflicts.
+//! `#VIB GUARD` and `#FILTER`: what persists, and the orders of filters.
 
 use super::{Run, Sync, clean, run, run_on};
 use crate::exec::step::{AxisShaping, ShapingSettings};
@@ -25,16 +25,6 @@ fn guard(setup: &AxisShaping) -> (u8, f64, f64) {
 }
 
 #[test]
-fn spellings_are_equal() {
-    let of = |text: &str| {
-        setups(&clean(&format!("{text}\nM30\n"))).into_iter().cloned().collect::<Vec<_>>()
-    };
-    let a = of("#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]");
-    assert_eq!(a, of("#VIB GUARD ON [MODE 2,FREQ 40, AX_DEV=0.01]"));
-    assert_eq!(guard(&a[0]), (2, 40.0, 0.1));
-}
-
-#[test]
 fn keys_persist_but_the_tolerance_does_not() {
     let run = clean(
         "F100\n#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]\nX1\n#VIB GUARD ON\nX2\n#VIB GUARD OFF\nX3\n#VIB GUARD ON\nX4\nM30\n",
@@ -46,19 +36,6 @@ fn keys_persist_but_the_tolerance_does_not() {
     assert_eq!(setups.len(), 3);
     assert_eq!((guard(setups[0]), guard(setups[2])), ((2, 40.0, 0.1), (2, 40.0, 0.1)));
     assert!(setups[1].kernel.is_none());
-}
-
-#[test]
-fn keys_without_on_are_stored() {
-    let run = run("#VIB GUARD [FREQ=6 MODE=2]\n#VIB GUARD ON\nM30\n");
-    assert_eq!(guard(setups(&run)[0]), (2, 6.0, 0.1));
-}
-
-#[test]
-fn keys_beside_off_are_stored_and_checked() {
-    let run =
-        run("#VIB GUARD OFF [FREQ=6 MODE=2 AX_DEV=0.01]\n#VIB GUARD OFF\n#VIB GUARD ON\nM30\n");
-    assert_eq!(guard(setups(&run)[0]), (2, 6.0, 0.1));
 }
 
 #[test]

@@ -2,10 +2,11 @@
 //! format.
 
 use super::{Event, Options, Run, Step, Sync, machine, places, run_with, shown};
+use crate::diag::Diagnostic;
 use crate::exec::SpindleMotion;
 use crate::machine::Machine;
 use crate::source::MemorySources;
-use kontur_kit::rows::{fits, is, rows};
+use kontur_kit::rows::{fits, is, lines, rows};
 use kontur_motion::block::{Block, ContourMode, Feed};
 use kontur_motion::path::Path;
 use std::collections::BTreeMap;
@@ -123,9 +124,21 @@ fn done(event: &Event) -> Option<String> {
     }
 }
 
+/// Everything that a program does, but for the places in its text.
+fn whole(run: &Run) -> Vec<String> {
+    let step = |step: &Step| match step {
+        Step::Motion { block, events, .. } => format!("{block:?} {events:?}"),
+        Step::Sync { what, events, .. } => format!("{what:?} {events:?}"),
+        Step::End { reason, events, .. } => format!("{reason:?} {events:?}"),
+    };
+    run.steps.iter().map(step).collect()
+}
+
 /// Compares a run with the right side of its row; returns the actual results if they differ.
 fn compare(run: &Run, expected: &str) -> Result<(), String> {
     let (words, texts) = expected.split_at(expected.find('"').unwrap_or(expected.len()));
+    let (words, is_about) =
+        words.trim_end().strip_suffix("about").map_or((words, false), |w| (w, true));
     let mut lists = vec![("says", Vec::new())];
     let mut wrong = Vec::new();
     for word in words.split_whitespace() {
@@ -145,7 +158,15 @@ fn compare(run: &Run, expected: &str) -> Result<(), String> {
         }
     }
     let texts: Vec<&str> = texts.trim_matches('"').split("\" \"").collect();
-    if texts != [""] && texts != run.messages() {
+    let of = |d: &Diagnostic| {
+        let block = d.source.as_ref().and_then(|at| at.block).unwrap_or_default();
+        format!("{} {:?} {:?} N{block}", d.text, d.hint, d.parameter)
+    };
+    let said: Vec<String> = run.diagnostics.iter().map(of).collect();
+    if is_about && !texts.iter().all(|text| said.iter().any(|d| d.contains(text))) {
+        wrong.push(format!("does not say {texts:?}"));
+    }
+    if !is_about && texts != [""] && texts != run.messages() {
         wrong.push(format!("writes {:?}", run.messages()));
     }
     if wrong.is_empty() {
@@ -162,11 +183,23 @@ fn faults(table: &str, machines: &mut BTreeMap<String, Arc<Machine>>) -> (String
     for row in &rows {
         let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
         let machine = machines.entry(settings.join(" ")).or_insert_with(|| machine(&settings));
-        let main = MemorySources::new().with("main.nc", row.program.as_str());
-        let sources = row.files.iter().fold(main, |s, (name, text)| s.with(name, text.as_str()));
-        let run = run_with(sources, Arc::clone(machine), Options::default());
-        if let Err(what) = compare(&run, &row.expected) {
+        let run = |program: &str| {
+            let main = MemorySources::new().with("main.nc", program);
+            let files = row.files.iter().fold(main, |s, (name, text)| s.with(name, text.as_str()));
+            run_with(files, Arc::clone(machine), Options::default())
+        };
+        let found = run(&row.program);
+        let (expected, other) =
+            row.expected.split_once(" as: ").unwrap_or((row.expected.as_str(), ""));
+        if let Err(what) = compare(&found, expected) {
             let _ = writeln!(wrong, "{}\n    {what}", row.text);
+        }
+        if !other.is_empty() {
+            let (found, other) = (whole(&found), whole(&run(&(lines(other) + "M30\n"))));
+            let differ = found.iter().zip(&other).find(|(found, other)| found != other);
+            if differ.is_some() || found.len() != other.len() {
+                let _ = writeln!(wrong, "{}\n    not so: {differ:?}", row.text);
+            }
         }
     }
     (wrong, rows.len())
@@ -199,7 +232,12 @@ fn wrong_rows_are_found() {
     assert!(row(
         "X1 F100 | G04 1 | G60 X2 | M10 H5 | M3 S50 -> steps move 1s move ExactStop does M10 H5 S50"
     ));
+    assert!(row("X1 F100 | X2 -> ok as: F100 X1 | G91 X1"));
+    assert!(row("G01 X1 -> 20008 about \"no F word\""));
     for wrong in [
+        "X1 F100 | X2 -> ok as: F100 X1 | X3",
+        "X1 F100 -> ok as: X1 F100 | X2",
+        "G01 X1 -> 20008 about \"no F word\" \"never said\"",
         "X1 F100 -> X1.00000001",
         "X1 F100 -> K-0009",
         "X1 F100 | Y=P5 -> X1",

@@ -20,7 +20,6 @@ use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::report::{Report, Subject};
 use crate::syntax::ast::{Place, Span};
 use resolve::{Resolved, Target, resolve};
 
@@ -81,14 +80,4 @@ impl Decoder {
         };
         self.values.variables.delete(&target, place.span, &mut self.report)
     }
-}
-
-/// Reports a number with a fraction that is written to a variable of an integer type.
-///
-/// Assumption: it is rounded; the documents do not specify whether the control rounds or truncates.
-fn note_rounded(report: &mut Report, name: &str, x: f64, span: Span) {
-    let text = format!("{name} only holds whole numbers: {x} is rounded to {}", x.round());
-    let fault = Fault::new(Condition::Odd, text, span).warning();
-    let hint = "use ROUND, INT, FLOOR or CEIL to select the whole number";
-    report.note_once(Subject::Rounded(name.into()), fault.hint(hint));
 }

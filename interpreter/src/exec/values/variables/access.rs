@@ -1,9 +1,8 @@
 //! Reading, writing and deleting a variable of the program.
 
-use super::note_rounded;
 use super::resolve::{Target, undefined_parameter};
 use super::scopes::{Class, Variables};
-use super::storage::{Owner, Variable};
+use super::storage::{Owner, Variable, note_rounded};
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;

@@ -1,7 +1,7 @@
 //! Parameters of cycles: `@P1`, `@X`.
 
-use super::resolve::undefined;
 use super::scopes::Variables;
+use super::storage::undefined;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;

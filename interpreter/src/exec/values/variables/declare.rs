@@ -1,9 +1,8 @@
 //! Declarations: `#VAR`, types, sizes and initial values of variables and arrays.
 
-use super::note_rounded;
 use super::resolve::parameter_index;
 use super::scopes::{Class, Variables, class};
-use super::storage::{DIMENSIONS_MAX, ELEMENTS_MAX, Type, Values, Variable};
+use super::storage::{DIMENSIONS_MAX, ELEMENTS_MAX, Type, Values, Variable, note_rounded};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};

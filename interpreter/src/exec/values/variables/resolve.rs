@@ -132,10 +132,6 @@ pub(super) fn parameter_index(
     Ok(index)
 }
 
-pub(super) fn undefined(what: &str, span: Span) -> Box<Fault> {
-    Fault::new(Condition::Undefined, format!("{what} has no value"), span)
-}
-
 /// `G04 P500` of other controls is read as the value of P500 here.
 pub(super) fn undefined_parameter(index: u32, span: Span) -> Box<Fault> {
     Fault::new(Condition::ParameterUnknown, format!("P{index} has no value"), span).hint(format!(

@@ -3,6 +3,7 @@
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
+use crate::exec::report::{Report, Subject};
 use crate::exec::values::number::{as_number, is_true, is_whole, whole};
 use crate::syntax::ast::Span;
 use smallvec::SmallVec;
@@ -196,4 +197,19 @@ impl Variable {
 pub(super) enum Values {
     One(Value),
     Many(Vec<Value>),
+}
+
+/// A variable or parameter without a value.
+pub(super) fn undefined(what: &str, span: Span) -> Box<Fault> {
+    Fault::new(Condition::Undefined, format!("{what} has no value"), span)
+}
+
+/// Reports a number with a fraction that is written to a variable of an integer type.
+///
+/// Assumption: it is rounded; the documents do not specify whether the control rounds or truncates.
+pub(super) fn note_rounded(report: &mut Report, name: &str, x: f64, span: Span) {
+    let text = format!("{name} only holds whole numbers: {x} is rounded to {}", x.round());
+    let fault = Fault::new(Condition::Odd, text, span).warning();
+    let hint = "use ROUND, INT, FLOOR or CEIL to select the whole number";
+    report.note_once(Subject::Rounded(name.into()), fault.hint(hint));
 }

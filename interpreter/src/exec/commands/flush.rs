@@ -1,0 +1,60 @@
+//! `#FLUSH` and the conditions under which the channel may be emptied.
+//!
+//! Source: TF5200 programming manual.
+
+use super::row::{Call, Row};
+use crate::diag::Condition;
+use crate::exec::decoder::Decoder;
+use crate::exec::fault::{Fault, Outcome};
+use crate::exec::step::Sync;
+use crate::syntax::ast::Span;
+
+/// Row of `#FLUSH`.
+pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
+    .bare()
+    .form("#FLUSH, #FLUSH CONTINUE, #FLUSH WAIT")
+    .meaning("stops at the end of the preceding block; with CONTINUE only if no further blocks are known, and the corner is not contoured")
+    .example("#FLUSH WAIT");
+
+/// 120102: a B-spline ends only at its own commands.
+///
+/// Source: TF5200 programming manual 207042443, diagnosis 264284811.
+pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    decoder.may_flush(&call.title(), call.span())
+}
+
+impl Decoder {
+    fn may_flush(&self, what: &str, span: Span) -> Outcome<()> {
+        if self.contour.hsc.on && !self.contour.hsc.rounds_corners {
+            let text = format!("{what} while #HSC [BSPLINE] is active");
+            return Err(Fault::new(Condition::FlushInSpline, text, span));
+        }
+        Ok(())
+    }
+
+    /// As above, and not between the two blocks of a contour line either.
+    fn may_flush_here(&self, what: &str, span: Span) -> Outcome<()> {
+        self.may_flush(what, span)?;
+        self.motion.contour_line.may_flush(what, span)
+    }
+
+    /// The implicit `#FLUSH WAIT` of a word.
+    pub(in crate::exec) fn flush_before(&mut self, what: &str, span: Span) -> Outcome<()> {
+        self.may_flush_here(what, span)?;
+        self.sync(Sync::FlushWait);
+        Ok(())
+    }
+}
+
+/// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
+fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
+    decoder.may_flush_here(&call.title(), call.span())?;
+    match call.rest {
+        [] => decoder.sync(Sync::Stop),
+        [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
+        // no stop while further blocks are available; the corner is not contoured (207042443)
+        [word] if word.is("CONTINUE") => decoder.contour.keep_corner(),
+        [word, ..] => return Err(call.unexpected(word)),
+    }
+    Ok(())
+}

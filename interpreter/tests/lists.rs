@@ -1,0 +1,170 @@
+//! The tables of `lists`: settings of a machine, and what the reader of the lists makes of them. Their README describes the form.
+
+use super::chains::read;
+use kontur_filters::time::CycleTime;
+use kontur_interpreter::diag::Diagnostic;
+use kontur_interpreter::machine::Machine;
+use kontur_kit::rows::{Row, fits, is, rows, settings};
+use std::fmt::Write as _;
+
+/// What settings lead to: the machine unless it is refused, and the messages.
+struct Outcome(Option<Machine>, Vec<Diagnostic>);
+
+fn outcome(row: &Row, more: &str) -> Outcome {
+    let all = [&row.settings[..], &settings(more)].concat();
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    match read(row.machine.as_deref().unwrap_or("xyz"), &all) {
+        Ok((machine, mut messages)) => {
+            messages.extend(machine.chains().1);
+            Outcome(Some(machine), messages)
+        }
+        Err(messages) => Outcome(None, messages),
+    }
+}
+
+/// `ID@axis@parameter@severity@place`.
+fn message(d: &Diagnostic, written: &[String]) -> String {
+    let axis = d.axis.as_ref().map_or("-", |axis| &axis.name);
+    let place = match &d.source {
+        None => "-",
+        Some(at) if written.iter().any(|setting| **setting == *at.text) => "set",
+        Some(_) => "list",
+    };
+    let severity = format!("{:?}", d.severity).to_lowercase();
+    format!("{}@{axis}@{}@{severity}@{place}", d.id, d.parameter.unwrap_or("-"))
+}
+
+/// All that the lists say of the axes.
+fn whole(machine: &Machine) -> String {
+    let kernels: Vec<_> =
+        machine.all_axes().map(|axis| axis.kernel_preset(machine.cycle)).collect();
+    format!("{:?} {kernels:?}", machine.chains().0)
+}
+
+/// The facts that a word of a row introduces.
+fn facts(word: &str, machine: &Machine) -> Vec<String> {
+    let chains = machine.chains().0;
+    match word {
+        "filters" => chains.iter().map(|chain| chain.filters.len().to_string()).collect(),
+        "kernel" => {
+            let kernel = |axis: &kontur_interpreter::machine::Axis| {
+                axis.kernel_preset(machine.cycle).hsc?.design(CycleTime::DEFAULT).0
+            };
+            let length = |axis| kernel(axis).map_or("-".into(), |k| k.length().to_string());
+            machine.all_axes().map(length).collect()
+        }
+        _ => vec![match &chains[0].additional {
+            None => "off".into(),
+            Some(interface) if interface.filter.is_none() => "plain".into(),
+            Some(_) => "filter".into(),
+        }],
+    }
+}
+
+/// What a row states and the lists do not fulfil.
+fn faults(row: &Row) -> Vec<String> {
+    let left = row.program.trim_end_matches("M30\n").trim().replace('\n', " | ");
+    let written = [&row.settings[..], &settings(&left)].concat();
+    let Outcome(machine, messages) = outcome(row, &left);
+    let mut wrong = Vec::new();
+    let (expected, texts) =
+        row.expected.split_at(row.expected.find('"').unwrap_or(row.expected.len()));
+    let (expected, other) = match expected.split_once("like ") {
+        Some((words, settings)) => (words.trim_end_matches("un"), Some(settings)),
+        None => (expected, None),
+    };
+    if let (Some(other), Some(machine)) = (other, &machine) {
+        let same = outcome(row, other).0.is_some_and(|other| whole(&other) == whole(machine));
+        if same == row.expected.contains("unlike ") {
+            wrong.push(format!("{} {other}", if same { "like" } else { "unlike" }));
+        }
+    }
+    let mut lists = vec![("says", Vec::new())];
+    for word in expected.split_whitespace() {
+        match (word, &machine) {
+            ("ok", _) | ("refused", None) => {}
+            ("filters" | "kernel" | "additional", _) => lists.push((word, Vec::new())),
+            (_, Some(machine)) if word.contains('=') => {
+                let (key, value) = word.split_once('=').unwrap_or_default();
+                let (axis, key) = key.split_once('.').unwrap_or_default();
+                let used = machine.axis(axis).and_then(|axis| axis.raw(key));
+                if !used.is_some_and(|used| is(value, &used.to_string())) {
+                    wrong.push(format!("{key} is {used:?}"));
+                }
+            }
+            _ => lists.last_mut().unwrap().1.push(word),
+        }
+    }
+    if machine.is_none() && !expected.contains("refused") {
+        wrong.push("refused".to_owned());
+    }
+    for (word, wanted) in lists {
+        let found: Vec<String> = match (word, &machine) {
+            ("says", _) => messages.iter().map(|d| message(d, &written)).collect(),
+            (_, Some(machine)) => facts(word, machine),
+            (_, None) => Vec::new(),
+        };
+        if !fits(&wanted, &found) {
+            wrong.push(format!("{word} {}", found.join(" ")));
+        }
+    }
+    let all: Vec<String> = messages.iter().map(|d| format!("{} {:?}", d.text, d.hint)).collect();
+    for text in texts.split('"').filter(|text| !text.trim().is_empty()) {
+        if !all.iter().any(|message| message.contains(text)) {
+            wrong.push(format!("does not say {text}: {all:?}"));
+        }
+    }
+    wrong
+}
+
+#[test]
+fn settings_do_what_their_rows_say() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lists");
+    let mut wrong = String::new();
+    for file in std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()) {
+        if file.extension().is_none_or(|e| e != "txt") {
+            continue;
+        }
+        let rows = rows(&std::fs::read_to_string(&file).unwrap());
+        assert!(!rows.is_empty(), "{} has no row", file.display());
+        for row in rows {
+            let faults = faults(&row);
+            if !faults.is_empty() {
+                let _ = writeln!(wrong, "{}\n    {}", row.text, faults.join("; "));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+/// A wrong row is found, whatever is wrong in it.
+#[test]
+fn wrong_rows_are_found() {
+    let right = |row: &str| faults(&rows(row)[0]).is_empty();
+    let (order, fewer) = ("X.filter[0]: enable=1, order=7", "X.filter[0]: enable=1, order=6");
+    assert!(right(&format!(
+        "{order} -> 50911@X@P-AXIS-00140@warning@set filters 1 0 0 0 like {fewer}"
+    )));
+    assert!(right(&format!("{order} -> 50911 \"order\"")));
+    for wrong in [
+        "ok",
+        "50912",
+        "50911@Y",
+        "50911@X@P-AXIS-00141",
+        "50911@X@P-AXIS-00140@error",
+        "50911@X@P-AXIS-00140@warning@-",
+        "50911 refused",
+        "50911 X.filter[0].order=5",
+        "50911 filters 0 0 0 0",
+        "50911 kernel 7 - - -",
+        "50911 additional plain",
+        "50911 like X.filter[0]: enable=1, order=5",
+        "50911 unlike X.filter[0]: enable=1, order=6",
+        "50911 \"never said\"",
+    ] {
+        assert!(!right(&format!("{order} -> {wrong}")), "{wrong}");
+    }
+    assert!(
+        right("kontur.cycle_time_us=50 -> .. refused") && !right("kontur.cycle_time_us=50 -> ..")
+    );
+}
