@@ -349,7 +349,9 @@ impl Splining {
             let mut groups = pace::groups(&part.block, pieces, self.cycle).into_iter();
             while let Some((pieces, v_mm_s)) = groups.next() {
                 let here = match pieces.last() {
-                    Some(last) if groups.len() > 0 || k + 1 < parts.len() => piece::point(last, 1.0),
+                    Some(last) if groups.len() > 0 || k + 1 < parts.len() => {
+                        piece::point(last, 1.0)
+                    }
                     _ => end.clone(),
                 };
                 let from = std::mem::replace(&mut start, here.clone());

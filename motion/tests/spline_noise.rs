@@ -245,7 +245,6 @@ fn the_path_is_the_same_seen_otherwise() {
         let path = |p: &[Vec<f64>]| traced(&splined(&job, settings, p, 50.0), edges, 6);
         let want = path(&points);
         let same = |got: &[Vec<Vec<f64>>], what: &str| {
-            let mut others = Vec::new();
             for (i, (p, q)) in want.iter().zip(got).enumerate() {
                 for (p, q) in p.iter().zip(q) {
                     let off = p.iter().zip(q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -253,9 +252,6 @@ fn the_path_is_the_same_seen_otherwise() {
                     assert!(off < most, "{seed} {what} edge {i}: {off}");
                 }
             }
-            others.dedup();
-            println!("{seed} {what}: {} of {edges} edges", others.len());
-            assert!(what=="reversed" || 50 * others.len() <= edges, "{seed} {what}: edges {others:?}");
         };
         let each = |p: &[Vec<f64>], f: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Vec<f64>> {
             p.iter().map(|p| f(p)).collect()

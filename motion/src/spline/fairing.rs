@@ -22,6 +22,8 @@ mod certificate;
 mod fit;
 mod knots;
 mod row;
+#[cfg(test)]
+mod tests;
 
 use super::edge::{Edge, Part, ends_at, programmed, stops_between};
 use super::node::Node;
@@ -178,7 +180,12 @@ impl Fairing {
         let mut last = from;
         for (k, passed) in self.passed.drain(..).enumerate() {
             let until = from + taken * (k + 1) as f64 / count as f64;
-            self.stretches.push_back(Stretch { block: passed.block, from: last, until, given: 0.0 });
+            self.stretches.push_back(Stretch {
+                block: passed.block,
+                from: last,
+                until,
+                given: 0.0,
+            });
             last = until;
         }
         if count > 1 {
@@ -347,11 +354,8 @@ impl Fairing {
             let snaps = is_near && next.is_none_or(|n| n - to.knot > 0.5 * (n - until));
             let last = until <= to.knot || snaps;
             let end = if snaps { to.knot } else { until.min(to.knot) };
-            let share = if last {
-                1.0 - stretch.given
-            } else {
-                (end - at) / (until - stretch.from)
-            };
+            let share =
+                if last { 1.0 - stretch.given } else { (end - at) / (until - stretch.from) };
             stretch.given += share;
             let block = stretch.block.clone();
             parts.push(Part { block, until: (end - from.knot) / interval, share, last });

@@ -49,7 +49,8 @@ impl FitEnd {
         let of = |i: usize| run.get(i).filter(|edge| edge.fitted);
         run.get(edge + 1)?.corner.e?;
         let edges = [of(edge)?, of(edge.checked_sub(1)?)?, of(edge.checked_sub(2)?)?];
-        let points = [edges[0].block.path.end(), edges[0].block.path.start(), edges[1].block.path.start()];
+        let points =
+            [edges[0].block.path.end(), edges[0].block.path.start(), edges[1].block.path.start()];
         Some(Self::new(points, edges.map(|edge| edge.interval)))
     }
 
@@ -64,7 +65,10 @@ impl FitEnd {
     fn blossom(&self, knots: [f64; 3]) -> AxisVec {
         let mut points = self.bezier.to_vec();
         for knot in knots {
-            points = points.windows(2).map(|p| between(&p[0], &p[1], knot / self.intervals[0])).collect();
+            points = points
+                .windows(2)
+                .map(|p| between(&p[0], &p[1], knot / self.intervals[0]))
+                .collect();
         }
         points.swap_remove(0)
     }
@@ -88,9 +92,9 @@ impl FitEnd {
 
 /// The control point at the start of an edge, if a corner at the other end of one of its legs changes it.
 fn inserted(run: &VecDeque<Edge>, edge: usize) -> Option<AxisVec> {
-    let before = edge.checked_sub(1).and_then(|before| {
-        Some(FitEnd::at_start(run, before)?.next(run[before].corner.e?))
-    });
+    let before = edge
+        .checked_sub(1)
+        .and_then(|before| Some(FitEnd::at_start(run, before)?.next(run[before].corner.e?)));
     before.or_else(|| Some(FitEnd::at_end(run, edge)?.next(run.get(edge + 1)?.corner.e?)))
 }
 

@@ -102,8 +102,7 @@ impl Built {
         let points = (0..count).map(of_axis).collect();
         let mut out = Self { nodes: Vec::with_capacity(data.len() + 4), data, points };
         let is_end = |d: &Datum| matches!(d.kind, Kind::Corner | Kind::Middle);
-        let ends: Vec<usize> =
-            (0..out.data.len()).filter(|i| is_end(&out.data[*i])).collect();
+        let ends: Vec<usize> = (0..out.data.len()).filter(|i| is_end(&out.data[*i])).collect();
         let rows: Vec<(usize, usize)> = ends.windows(2).map(|w| (w[0], w[1])).collect();
         let is_fit = |(a, b): (usize, usize)| b - a >= FEWEST;
         for (r, (a, b)) in rows.iter().copied().enumerate() {
@@ -173,9 +172,7 @@ impl Built {
         for (group, axes) in row.groups.iter().enumerate() {
             let own: Vec<&[f64]> = axes.iter().map(|axis| &self.points[*axis][a..=b]).collect();
             let room: Vec<f64> = rooms.iter().map(|r| r[group]).collect();
-            for (axis, fitted) in
-                axes.iter().zip(fit::control_points(&knots, &at, &own, &room))
-            {
+            for (axis, fitted) in axes.iter().zip(fit::control_points(&knots, &at, &own, &room)) {
                 points[*axis] = fitted;
             }
         }
@@ -390,10 +387,15 @@ fn data(row: &Row<'_>, stays: &[bool]) -> Vec<Datum> {
     let mut out = Vec::with_capacity(n);
     for i in 0..n {
         let at = row.vertices[i].at;
-        out.push(Datum { vertex: i, at, kind: if corner[i] { Kind::Corner } else { Kind::Smooth } });
+        out.push(Datum {
+            vertex: i,
+            at,
+            kind: if corner[i] { Kind::Corner } else { Kind::Smooth },
+        });
         if i + 1 < n && big[i] {
             let length = row.length(i);
-            let beside = |k: usize| (!corner[k]).then(|| row.length(if k == i { i - 1 } else { k }));
+            let beside =
+                |k: usize| (!corner[k]).then(|| row.length(if k == i { i - 1 } else { k }));
             let sides = [beside(i), beside(i + 1)];
             let on_edge = |(d, kind): (f64, Kind)| Datum { vertex: i, at: at + d, kind };
             out.extend(virtual_points(length, sides).into_iter().map(on_edge));

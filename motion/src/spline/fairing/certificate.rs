@@ -17,7 +17,8 @@ const SHORTEST: f64 = 0.25;
 /// `at`. The axes of the spline are those of `points`.
 pub(super) fn bounds(spline: &Spline, at: &[f64], points: &[&[f64]]) -> Vec<f64> {
     let axes = 0..points.len();
-    let length = |squares: &mut dyn Iterator<Item = f64>| squares.map(|c| c * c).sum::<f64>().sqrt();
+    let length =
+        |squares: &mut dyn Iterator<Item = f64>| squares.map(|c| c * c).sum::<f64>().sqrt();
     let bends: Vec<f64> = (0..=spline.len())
         .map(|j| length(&mut axes.clone().map(|axis| spline.second(axis, j))))
         .collect();
