@@ -200,7 +200,6 @@ fn the_certificate_is_a_bound() {
 }
 
 /// A run fitted in windows has the control points of the same run fitted as a whole: to 20 nm.
-
 #[test]
 fn windows_change_nothing() {
     for (decimals, most) in [(12, 2e-5), (3, 2e-5)] {
