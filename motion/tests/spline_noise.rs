@@ -135,7 +135,7 @@ fn contour(seed: u64, decimals: i32) -> Vec<Vec<f64>> {
         let bend = random.between(-0.4, 0.4) * chord.min(0.3);
         for _ in 0..(random.between(5.0, 90.0) as usize) {
             heading += bend;
-            let step = if random.chance(0.05) { 0.002 } else { chord * random.between(0.9, 1.1) };
+            let step = if random.chance(0.05) { 0.002 } else { chord * random.between(0.3, 1.7) };
             let (sin, cos) = libm::sincos(heading);
             p = [p[0] + step * cos, p[1] + step * sin, p[2] + 0.1 * step];
             points.push(p.to_vec());

@@ -41,8 +41,10 @@ const MARGIN: usize = 192;
 const SEAM: usize = 32;
 /// Largest number of points in a row that are passed over.
 const PASSED: usize = 16;
-/// Share of a knot interval within which the end of a block moves to the knot.
-const NEAR: f64 = 1e-3;
+/// The end of a block this close to a knot moves there, as a share of the knot interval and in mm: evened knots of almost
+/// equal chords hardly differ from their ends, and a block is then one polynomial.
+const NEAR: f64 = 0.05;
+const NEAR_MM: f64 = 1e-3;
 
 /// What the stage outputs.
 #[derive(Debug)]
@@ -342,7 +344,7 @@ impl Fairing {
     /// Outputs a leg of the control polygon with the parts of the blocks along it.
     fn put_out_leg(&mut self, from: &Node, to: &Node) {
         let interval = to.knot - from.knot;
-        let near = NEAR * interval;
+        let near = NEAR_MM.min(NEAR * interval);
         let mut parts: SmallVec<[Part; 2]> = SmallVec::new();
         let mut at = from.knot;
         while at < to.knot {

@@ -261,30 +261,29 @@ impl Built {
     /// Checks the deviation of the spline between two corners and enters it there; returns the points before edges over
     /// which it is too large.
     pub(super) fn certify(&mut self, row: &Row<'_>, chain: Range<usize>) -> Vec<usize> {
-        let nodes = &self.nodes[chain.start..=chain.end];
-        let [from, to] = [chain.start, chain.end].map(|i| self.nodes[i].knot);
-        let first = self.data.partition_point(|d| d.at < from);
-        let last = self.data.partition_point(|d| d.at < to);
-        let data = &self.data[first..=last];
-        let at: Vec<f64> = data.iter().map(|d| d.at).collect();
-        let knots: Vec<f64> = nodes.iter().map(|n| n.knot).collect();
         let mut failed = Vec::new();
         let mut ends = [[0.0_f64; 2]; 2];
-        for (group, axes) in row.groups.iter().enumerate().filter(|(_, axes)| !axes.is_empty()) {
-            let own = |axis: &usize| nodes.iter().map(|n| n.point[*axis]).collect();
-            let spline = Spline::new(&knots, axes.iter().map(own).collect());
-            let points: Vec<&[f64]> =
-                axes.iter().map(|axis| &self.points[*axis][first..=last]).collect();
-            let bounds = certificate::bounds(&spline, &at, &points);
-            for (datum, bound) in data.iter().zip(&bounds) {
-                // also fails where the bound is not a number
-                let kept = *bound <= row.chord(datum.vertex).left()[group];
-                failed.extend((!kept).then_some(datum.vertex));
-            }
-            ends[0][group] = near_corner(&at, &bounds, &spline, axes.len(), false);
-            ends[1][group] = near_corner(&at, &bounds, &spline, axes.len(), true);
+        let mut from = chain.start;
+        while from < chain.end {
+            let fitted = self.nodes[from].fitted;
+            let legs = self.nodes[from..chain.end].iter().take_while(|n| n.fitted == fitted);
+            let to = from + legs.count();
+            let own = if fitted {
+                self.certify_fit(row, from, to, &mut failed)
+            } else {
+                let own =
+                    self.off_middle(row, from.max(chain.start + 1) - 1, (to + 1).min(chain.end));
+                let vertex = self.nodes[from].place.0;
+                let left = row.chord(vertex).left();
+                let kept = own[0] <= left[0] && own[1] <= left[1];
+                failed.extend((!kept).then_some(vertex));
+                [own; 2]
+            };
+            ends[0] = if from == chain.start { own[0] } else { ends[0] };
+            ends[1] = own[1];
+            from = to;
         }
-        for w in nodes.windows(2) {
+        for w in self.nodes[chain.start..=chain.end].windows(2) {
             let length = apart(&w[0].point, &w[1].point, &row.groups[0]);
             if !certificate::is_in_order(length, w[1].knot - w[0].knot) {
                 failed.push(w[0].place.0);
@@ -301,6 +300,57 @@ impl Built {
             *off = [off[0].max(own[0]), off[1].max(own[1])];
         }
         failed
+    }
+
+    /// Checks a fit between two control points; returns its deviation next to either.
+    fn certify_fit(
+        &self,
+        row: &Row<'_>,
+        from: usize,
+        to: usize,
+        failed: &mut Vec<usize>,
+    ) -> [[f64; 2]; 2] {
+        let nodes = &self.nodes[from..=to];
+        // both ends of a fit are data
+        let datum = |node: usize| self.data.partition_point(|d| d.at < self.nodes[node].knot);
+        let (first, last) = (datum(from), datum(to));
+        let at: Vec<f64> = self.data[first..=last].iter().map(|d| d.at).collect();
+        let knots: Vec<f64> = nodes.iter().map(|n| n.knot).collect();
+        let mut ends = [[0.0; 2]; 2];
+        for (group, axes) in row.groups.iter().enumerate().filter(|(_, axes)| !axes.is_empty()) {
+            let own = |axis: &usize| nodes.iter().map(|n| n.point[*axis]).collect();
+            let spline = Spline::new(&knots, axes.iter().map(own).collect());
+            let points: Vec<&[f64]> =
+                axes.iter().map(|axis| &self.points[*axis][first..=last]).collect();
+            let bounds = certificate::bounds(&spline, &at, &points);
+            for (datum, bound) in self.data[first..].iter().zip(&bounds) {
+                // also fails where the bound is not a number
+                let kept = *bound <= row.chord(datum.vertex).left()[group];
+                failed.extend((!kept).then_some(datum.vertex));
+            }
+            ends[0][group] = near_corner(&at, &bounds, &spline, axes.len(), false);
+            ends[1][group] = near_corner(&at, &bounds, &spline, axes.len(), true);
+        }
+        ends
+    }
+
+    /// How far the control points around a straight middle are from its edge: the spline is between them. Their positions
+    /// along the edge differ from the knots, which changes nothing but the speed of the parameter.
+    fn off_middle(&self, row: &Row<'_>, from: usize, to: usize) -> [f64; 2] {
+        let i = self.nodes[from + 1].place.0;
+        let [p, q] = [i, i + 1].map(|k| &row.vertices[k].point);
+        let length = row.length(i);
+        let mut most = [0.0_f64; 2];
+        for node in &self.nodes[from..=to] {
+            let feed = row.groups[0].iter();
+            let along = feed.map(|k| (node.point[*k] - p[*k]) * (q[*k] - p[*k])).sum::<f64>();
+            let share = along / (length * length);
+            for (most, axes) in most.iter_mut().zip(row.groups) {
+                let off = |k: &usize| node.point[*k] - p[*k] - share * (q[*k] - p[*k]);
+                *most = most.max(axes.iter().map(|k| off(k) * off(k)).sum::<f64>().sqrt());
+            }
+        }
+        most
     }
 }
 

@@ -259,7 +259,7 @@ fn every_block_is_output_once() {
             let mut until = 0.0;
             for part in &edge.parts {
                 assert_eq!(part.block.seq, next, "{seed}");
-                assert!(part.until > until && part.share > -NEAR, "{seed}: {part:?}");
+                assert!(part.until > until && part.share > 0.0, "{seed}: {part:?}");
                 until = part.until;
                 share += part.share;
                 if part.last {
