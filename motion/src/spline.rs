@@ -53,6 +53,7 @@
 
 mod edge;
 mod fairing;
+mod node;
 mod pace;
 mod polygon;
 mod worth;
@@ -60,8 +61,8 @@ mod worth;
 use crate::block::{Block, Feed};
 use crate::contouring::{NoContour, Notice};
 use crate::path::{Path, PolyPath, piece};
-use edge::{Corner, Curve, Edge, corner};
-use fairing::Fairing;
+use edge::{Corner, Curve, Edge, Part, reach};
+use fairing::{Fairing, Out};
 use kontur_filters::time::CycleTime;
 use polygon::ControlPolygon;
 use std::collections::VecDeque;
@@ -140,8 +141,8 @@ impl Splining {
     /// corners.
     pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
-        for block in fairing.push(block) {
-            self.take(block, kernel_active);
+        for out in fairing.push(block) {
+            self.take(out, kernel_active);
         }
         self.fairing = fairing;
         self.ready.drain(..)
@@ -150,8 +151,8 @@ impl Splining {
     /// Returns everything that is held, where the path stops after the last block.
     pub fn flush(&mut self, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
         let mut fairing = std::mem::take(&mut self.fairing);
-        for block in fairing.flush() {
-            self.take(block, kernel_active);
+        for out in fairing.flush() {
+            self.take(out, kernel_active);
         }
         self.fairing = fairing;
         self.end_run(kernel_active);
@@ -163,35 +164,48 @@ impl Splining {
         std::mem::take(&mut self.notices)
     }
 
-    fn take(&mut self, block: Block, kernel_active: bool) {
-        let Some(mut edge) = Edge::new(&block) else {
-            self.end_run(kernel_active);
-            self.ready.push(block);
-            return;
-        };
-        if let Some(last) = self.run.back() {
-            match corner(last, &edge) {
-                Some(corner) => edge.corner = corner,
-                None => self.end_run(kernel_active),
+    fn take(&mut self, out: Out, kernel_active: bool) {
+        let mut edge = match out {
+            Out::Edge(edge) => edge,
+            Out::End => {
+                self.end_run(kernel_active);
+                return;
             }
+            Out::Block(block) => {
+                self.ready.push(block);
+                return;
+            }
+        };
+        if let Some(last) = self.run.back().filter(|_| edge.corner.programmed) {
+            edge.corner.reach = reach(last, &edge);
         }
         self.from_start |= self.run.is_empty();
-        self.settle(edge.length);
+        self.settle([edge.length, edge.interval]);
         self.run.push_back(edge);
         self.advance(kernel_active);
     }
 
-    /// Completes the corner at the start of the last edge, which also depends on the length of the next edge.
-    fn settle(&mut self, next: f64) {
+    /// Completes the corner at the start of the last edge, which also depends on length and interval of the next edge.
+    fn settle(&mut self, [next, next_interval]: [f64; 2]) {
         let Some(at) = self.run.len().checked_sub(2) else { return };
-        let (h, k) = (self.run[at].length, self.run[at + 1].length);
+        let (from, to) = (&self.run[at], &self.run[at + 1]);
+        let (h, k) = (from.length, to.length);
         let g = if at > 0 { self.run[at - 1].length } else { h };
         let lengths = [g, h, k, next];
         let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
         let even = lengths.iter().all(|l| *l <= EVEN * shortest);
-        let most = SHARE * h.min(k);
-        let Corner { reach, e, .. } = &mut self.run[at + 1].corner;
-        if reach.is_finite() {
+        let fitted = from.fitted || to.fitted;
+        let most = SHARE * if fitted { from.interval.min(to.interval) } else { h.min(k) };
+        // a fit runs through its end at almost, but not exactly, the speed 1 of its parameter
+        let speed = |edge: &Edge, inner: f64| {
+            if edge.fitted { 3.0 * edge.length / (2.0 * edge.interval + inner) } else { 1.0 }
+        };
+        let before = if at > 0 { self.run[at - 1].interval } else { from.interval };
+        let fastest = speed(from, before).max(speed(to, next_interval)).max(1.0);
+        let Corner { programmed, reach, e, .. } = &mut self.run[at + 1].corner;
+        if *programmed && fitted {
+            *e = Some((6.0 * *reach / fastest).min(most));
+        } else if reach.is_finite() {
             let exact = 6.0 * *reach;
             *e = (!even || exact < most).then_some(exact.min(most));
         }
@@ -200,7 +214,7 @@ impl Splining {
     fn end_run(&mut self, kernel_active: bool) {
         if let Some(last) = self.run.back() {
             // mirrored at the end
-            self.settle(last.length);
+            self.settle([last.length, last.interval]);
         }
         self.to_end = true;
         self.advance(kernel_active);
@@ -219,7 +233,8 @@ impl Splining {
             self.curved += 1;
         }
         while self.compared < self.curved {
-            let slower = self.compared > 0 && !self.is_worth(self.compared, kernel_active);
+            let programmed = self.compared > 0 && self.run[self.compared].corner.programmed;
+            let slower = programmed && !self.is_worth(self.compared, kernel_active);
             let corner = &mut self.run[self.compared].corner;
             corner.slower = slower;
             corner.sharp_since = (slower && corner.e.is_some()).then_some(0);
@@ -269,7 +284,7 @@ impl Splining {
     fn put_out(&mut self) {
         let edge = self.done;
         if self.run[edge].corner.sharp_since.is_some() {
-            let seq = self.run[edge - 1].block.seq;
+            let seq = self.run[edge - 1].as_last().seq;
             self.notices.push(Notice { seq, reason: NoContour::Slower });
         }
         let mut curves = std::mem::take(&mut self.run[edge].curves);
@@ -278,21 +293,23 @@ impl Splining {
         if span != whole {
             curves = self.curves(edge, &span);
         }
-        let block = &self.run[edge].block;
+        let Edge { block: leg, parts, .. } = &self.run[edge];
         if curves.is_empty() {
-            self.ready.push(block.clone());
+            self.ready.extend(straight(leg, parts));
         }
-        let whole: f64 = curves.iter().map(|curve| curve.path.length()).sum();
-        let parts = curves.len();
-        for (i, Curve { path, .. }) in curves.into_iter().enumerate() {
-            let mut part = block.clone();
-            if let Feed::Duration(t) = block.feed {
-                part.feed = Feed::Duration(t * path.length() / whole);
+        let mut curves = curves.into_iter().peekable();
+        while let Some(curve) = curves.next() {
+            let whole = &parts[curve.part];
+            let mut part = whole.block.clone();
+            if let Feed::Duration(t) = part.feed {
+                let length = curve.path.length() / curve.of_part_mm;
+                part.feed = Feed::Duration(t * whole.share * length);
             }
-            if i + 1 < parts {
+            let more = curves.peek().is_some_and(|next| next.part == curve.part);
+            if more || !whole.last {
                 (part.end_velocity_mm_s, part.contour) = (None, None);
             }
-            part.path = Path::Curve(Box::new(path));
+            part.path = Path::Curve(Box::new(curve.path));
             self.ready.push(part);
         }
         self.done += 1;
@@ -313,8 +330,7 @@ impl Splining {
             return Vec::new();
         }
         let polygon = ControlPolygon::around(&self.run, edge, span);
-        let pieces = polygon.pieces();
-        let block = &self.run[edge].block;
+        let Edge { block, parts, .. } = &self.run[edge];
         let mut start = if span.from_start && edge == span.edges.start {
             block.path.start().clone()
         } else {
@@ -325,17 +341,47 @@ impl Splining {
         } else {
             polygon.joint(polygon.last)
         };
-        let mut groups = pace::groups(block, pieces, self.cycle).into_iter();
-        let mut out = Vec::with_capacity(groups.len());
-        while let Some((pieces, v_mm_s)) = groups.next() {
-            let here = match pieces.last() {
-                Some(last) if groups.len() > 0 => piece::point(last, 1.0),
-                _ => end.clone(),
-            };
-            let from = std::mem::replace(&mut start, here.clone());
-            let path = PolyPath::new(from, here, pieces, &block.dynamics.feed_axes);
-            out.extend(path.map(|path| Curve { path, v_mm_s }));
+        let ends = parts[..parts.len() - 1].iter().map(|part| part.until);
+        let stretches = polygon.stretches(ends);
+        let mut out: Vec<Curve> = Vec::with_capacity(parts.len());
+        for (k, (part, pieces)) in parts.iter().zip(stretches).enumerate() {
+            let first = out.len();
+            let mut groups = pace::groups(&part.block, pieces, self.cycle).into_iter();
+            while let Some((pieces, v_mm_s)) = groups.next() {
+                let here = match pieces.last() {
+                    Some(last) if groups.len() > 0 || k + 1 < parts.len() => {
+                        piece::point(last, 1.0)
+                    }
+                    _ => end.clone(),
+                };
+                let from = std::mem::replace(&mut start, here.clone());
+                let path = PolyPath::new(from, here, pieces, &block.dynamics.feed_axes);
+                out.extend(path.map(|path| Curve { path, v_mm_s, part: k, of_part_mm: 0.0 }));
+            }
+            let whole = out[first..].iter().map(|curve| curve.path.length()).sum();
+            for curve in &mut out[first..] {
+                curve.of_part_mm = whole;
+            }
         }
         out
     }
+}
+
+/// The parts of a straight leg.
+fn straight<'a>(leg: &'a Block, parts: &'a [Part]) -> impl Iterator<Item = Block> + 'a {
+    let mut from = 0.0;
+    parts.iter().filter_map(move |part| {
+        let Part { block, until, share, last } = part;
+        let length = leg.path.length();
+        let line = leg.path.section(from * length, until * length)?;
+        from = *until;
+        let mut block = Block { path: line, ..block.clone() };
+        if let Feed::Duration(t) = block.feed {
+            block.feed = Feed::Duration(t * share);
+        }
+        if !last {
+            (block.end_velocity_mm_s, block.contour) = (None, None);
+        }
+        Some(block)
+    })
 }

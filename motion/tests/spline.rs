@@ -1,6 +1,7 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
 mod ripple;
+mod unequal;
 
 use crate::common::{Job, axis, channel, circle, deviation, peaks};
 use kontur_filters::time::CycleTime;

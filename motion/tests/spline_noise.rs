@@ -135,7 +135,7 @@ fn contour(seed: u64, decimals: i32) -> Vec<Vec<f64>> {
         let bend = random.between(-0.4, 0.4) * chord.min(0.3);
         for _ in 0..(random.between(5.0, 90.0) as usize) {
             heading += bend;
-            let step = if random.chance(0.05) { 0.002 } else { chord * random.between(0.9, 1.1) };
+            let step = if random.chance(0.05) { 0.002 } else { chord * random.between(0.3, 1.7) };
             let (sin, cos) = libm::sincos(heading);
             p = [p[0] + step * cos, p[1] + step * sin, p[2] + 0.1 * step];
             points.push(p.to_vec());
@@ -232,9 +232,9 @@ fn the_whole_stays_within_the_tolerance() {
     assert!(used > 0.9);
 }
 
-/// The reversed, mirrored or permuted contour gives the reversed, mirrored or permuted path. Where a corner takes the
-/// same time with and without the spline, to a hundredth, the reversed contour may be decided differently, which
-/// changes two edges on either side.
+/// The mirrored or permuted contour gives the mirrored or permuted path, and the reversed one almost: of points that are
+/// close together it passes over the other one, and where a corner takes the same time with and without the spline, to
+/// a hundredth, it may be decided differently.
 #[test]
 fn the_path_is_the_same_seen_otherwise() {
     let job = machine(3);
@@ -245,18 +245,13 @@ fn the_path_is_the_same_seen_otherwise() {
         let path = |p: &[Vec<f64>]| traced(&splined(&job, settings, p, 50.0), edges, 6);
         let want = path(&points);
         let same = |got: &[Vec<Vec<f64>>], what: &str| {
-            let mut others = Vec::new();
             for (i, (p, q)) in want.iter().zip(got).enumerate() {
                 for (p, q) in p.iter().zip(q) {
                     let off = p.iter().zip(q).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                    let undecided = what == "reversed" && off < 2.0 * settings.path_dev_mm;
-                    assert!(off < 1e-6 || undecided, "{seed} {what} edge {i}: {off}");
-                    others.extend((off >= 1e-6).then_some(i));
+                    let most = if what == "reversed" { 0.5 * settings.path_dev_mm } else { 1e-6 };
+                    assert!(off < most, "{seed} {what} edge {i}: {off}");
                 }
             }
-            others.dedup();
-            println!("{seed} {what}: {} of {edges} edges", others.len());
-            assert!(50 * others.len() <= edges, "{seed} {what}: edges {others:?}");
         };
         let each = |p: &[Vec<f64>], f: &dyn Fn(&[f64]) -> Vec<f64>| -> Vec<Vec<f64>> {
             p.iter().map(|p| f(p)).collect()

@@ -1,327 +1,396 @@
-//! Removes the noise from the programmed points before they become control points.
+//! From the programmed points to the control points of the spline.
 //!
-//! Coordinates rounded to three decimals are up to 0.9 um off the contour that they describe. With chords of 0.05 mm
-//! this turns the edges by a degree, and a spline that takes every point as exact bends there as much as at a radius of
-//! a few mm. Each point is therefore moved to a smoothing spline ([`fit`]) of the points around it: by at most
-//! [`SHARE`] of the tolerance and [`MOST`], and by at most twice the noise of the points around it. Points on a smooth
-//! curve have no noise and stay. The displacement of a point is subtracted from the tolerance of the B-spline at the
-//! corners around it: an edge between two points is nowhere further from the programmed one than they are, so the whole
-//! stays within the tolerance.
+//! Programmed points as control points give a fair curve only if they are evenly spaced and exact. The control point of
+//! a smooth curve is its blossom at three neighbouring knots: it differs from the point of the curve by terms that
+//! depend on both chords, in nanometres, but a third derivative sees them. Coordinates rounded to three decimals are up
+//! to 0.9 um off the contour that they describe. The control points are therefore fitted ([`fit`]) to the points, over
+//! knots that are evened out ([`knots`]). Points that are no further apart than a share of the tolerance are passed
+//! over. Which points stay control points is decided in [`build`]; for everything else the deviation is certified edge
+//! by edge ([`certificate`]).
 //!
-//! Points that stay exactly where they are: both ends of a run, of edges longer than [`LONG_MM`] and of blocks whose
-//! conditions differ from those of their neighbour (a new feed rate does not count), and corners, points at which the
-//! path turns by more than noise could cause. The points between two of them are smoothed as a separate row. The axes
-//! of the feed group move together, the others in a second pass of the same kind. A long row is smoothed in parts of
-//! [`CHUNK`] points, each with [`MARGIN`] points on either side, after which their influence on the spline has faded
-//! (`e^(-MARGIN / 40)` of the room).
+//! The axes of the feed group and the others are fitted over the same knots, with a tolerance for each.
+//!
+//! Knots and blocks are independent: the part of a block is the spline over its own stretch of the polygon.
+//!
+//! A long run is fitted in windows of [`CHUNK`] points, each with [`MARGIN`] points on either side, after which their
+//! influence has faded (less than 10 nm, and 0.2 % of the speed, for chords of 0.02 mm with three decimals). Windows meet
+//! at a corner, or one blends into the next over [`SEAM`] control points. Where the deviation of the seam cannot be
+//! certified, the control points of the earlier window are used up to its end, which is a programmed point.
 
+mod build;
+mod certificate;
 mod fit;
+mod knots;
+mod row;
 #[cfg(test)]
 mod tests;
 
-use super::edge::{Edge, corner, is_feed, turn};
+use super::edge::{Edge, Part, ends_at, programmed, stops_between};
+use super::node::Node;
 use crate::axis::AxisVec;
-use crate::block::Block;
-use crate::block::SplineSettings;
-use crate::path::{LinePath, Path};
+use crate::block::{Block, SplineSettings};
+use build::built;
+use row::{Chord, Groups, Row, Vertex, apart, groups, rooms, tighter};
+use smallvec::SmallVec;
 use std::collections::VecDeque;
-use std::ops::Range;
-use std::sync::Arc;
 
-/// Share of the tolerance that may be used to remove noise.
-const SHARE: f64 = 0.3;
-/// Largest displacement of a point in mm (deg): rounding to a ten-thousandth of an inch in three axes is 2.2 um.
-const MOST: f64 = 3e-3;
-/// Noise in mm (deg) below which points count as smooth: far below any rounding of coordinates, above that of the
-/// arithmetic.
-const LEAST: f64 = 1e-7;
-/// Permitted displacement of a point as a multiple of the noise around it: a rounding step `q` shows as `q / 3`, and
-/// half of it is noise.
-const CERTAIN: f64 = 2.0;
-/// Edges longer than this keep their ends: rounding turns them by less than a tenth of a degree.
-const LONG_MM: f64 = 1.0;
-/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points.
-const CORNER_RAD: f64 = 0.35;
-const GRAIN_MM: f64 = 1e-3;
-/// Smallest distance that is used for two points: in a shorter one noise is the larger part.
-const SHORTEST_MM: f64 = 1e-3;
-/// Number of points of a long row that are output at once, of those on either side that they are smoothed with, and of
-/// those in which one part blends into the next.
-const CHUNK: usize = 384;
-const MARGIN: usize = 384;
-const SEAM: usize = 64;
-/// Smallest share of its length that an edge keeps in the direction of the path.
-const KEPT: f64 = 0.25;
+/// Number of points of a long run that are output at once, of those on either side that they are fitted with, and of
+/// those in which one window blends into the next.
+const CHUNK: usize = 192;
+const MARGIN: usize = 192;
+const SEAM: usize = 32;
+/// Largest number of points in a row that are passed over.
+const PASSED: usize = 16;
+/// The end of a block this close to a knot moves there, as a share of the knot interval and in mm: evened knots of almost
+/// equal chords hardly differ from their ends, and a block is then one polynomial.
+const NEAR: f64 = 0.05;
+const NEAR_MM: f64 = 1e-3;
 
-/// A programmed point of a row.
+/// What the stage outputs.
 #[derive(Debug)]
-struct Vertex {
-    point: AxisVec,
-    /// Position on the polygon in mm.
-    at: f64,
-    /// Largest permitted displacement of the axes of the feed group and of the others.
-    room: [f64; 2],
-    /// Displacement.
-    moved: AxisVec,
-    /// Its length over the axes of the feed group and over the others.
-    size: [f64; 2],
+pub(super) enum Out {
+    /// A leg of the control polygon of the spline.
+    Edge(Edge),
+    /// The spline ends.
+    End,
+    /// A block outside of splines.
+    Block(Block),
 }
 
-impl Vertex {
-    fn new(point: &AxisVec, at: f64) -> Self {
-        Self {
-            point: point.clone(),
-            at,
-            room: [0.0; 2],
-            moved: AxisVec::zeros(point.len()),
-            size: [0.0; 2],
-        }
-    }
+/// A block of the run with its stretch of the polygon.
+#[derive(Debug)]
+struct Stretch {
+    block: Block,
+    from: f64,
+    until: f64,
+    /// Share of it that has been output.
+    given: f64,
 }
 
-/// The fairing stage. It holds at most [`CHUNK`] + [`MARGIN`] blocks of a row, and [`MARGIN`] points before them.
+/// A block that ends at a point that is passed over.
+#[derive(Debug)]
+struct Passed {
+    block: Block,
+    off: [f64; 2],
+}
+
+/// The stage. It holds at most [`CHUNK`] + [`MARGIN`] points of a run, and [`MARGIN`] points before them.
 #[derive(Debug, Default)]
 pub(super) struct Fairing {
-    /// Edges of the row that have not been output.
-    edges: VecDeque<Edge>,
-    /// Points of the row: those of the edges, and final ones before them.
-    row: VecDeque<Vertex>,
-    /// Displacement of the last point before the row.
-    before: [f64; 2],
-    ready: Vec<Block>,
+    vertices: Vec<Vertex>,
+    groups: Groups,
+    /// The first point with a control point that has not been output, except for the one there.
+    first: usize,
+    /// Blocks after the last point.
+    passed: Vec<Passed>,
+    /// Blocks of the run that have not been output completely.
+    stretches: VecDeque<Stretch>,
+    /// The control points of the previous window from a few before `first` on, if it has to blend into the next one; and
+    /// the number of the one at `first`.
+    before: (Vec<Node>, usize),
+    /// The last control point that has been output.
+    last: Option<Node>,
+    ready: Vec<Out>,
 }
 
 impl Fairing {
     /// Whether no block is held.
     pub(super) fn is_empty(&self) -> bool {
-        self.edges.is_empty()
+        self.vertices.is_empty()
     }
 
-    /// Takes a block and returns the final ones.
-    pub(super) fn push(&mut self, block: Block) -> std::vec::Drain<'_, Block> {
-        match Edge::new(&block) {
-            None => {
-                self.end_run();
-                self.ready.push(block);
-            }
-            Some(edge) => self.take(edge),
+    /// Takes a block and returns what is final.
+    pub(super) fn push(&mut self, block: Block) -> std::vec::Drain<'_, Out> {
+        if programmed(&block).is_none() {
+            self.end_run();
+            self.ready.push(Out::Block(block));
+        } else {
+            self.take(block);
         }
         self.ready.drain(..)
     }
 
     /// Returns everything that is held, where the path stops after the last block.
-    pub(super) fn flush(&mut self) -> std::vec::Drain<'_, Block> {
+    pub(super) fn flush(&mut self) -> std::vec::Drain<'_, Out> {
         self.end_run();
         self.ready.drain(..)
     }
 
-    fn end_run(&mut self) {
-        self.end_row();
-        self.before = [0.0; 2];
-    }
-
-    fn take(&mut self, edge: Edge) {
-        if self.edges.back().is_some_and(|last| stays(last, &edge)) {
-            self.end_row();
+    fn take(&mut self, block: Block) {
+        let last = self.passed.last().map(|p| &p.block).or(self.stretches.back().map(|s| &s.block));
+        if last.is_some_and(|last| stops_between(last, &block)) {
+            self.end_run();
         }
-        let mut at = 0.0;
-        if let (Some(last), Some(vertex)) = (self.edges.back(), self.row.back_mut()) {
-            vertex.room = room(last, &edge);
-            at = vertex.at;
-        } else {
-            self.row.push_back(Vertex::new(edge.block.path.start(), at));
+        if self.vertices.is_empty() {
+            self.groups = groups(&block);
+            self.start(block.path.start().clone());
         }
-        at += edge.length.max(SHORTEST_MM);
-        self.row.push_back(Vertex::new(edge.block.path.end(), at));
-        self.edges.push_back(edge);
-        if self.edges.len() >= CHUNK + MARGIN {
-            self.put_out(CHUNK);
-        }
-    }
-
-    /// Ends a row; its last point stays where it is.
-    fn end_row(&mut self) {
-        self.put_out(self.edges.len());
-        let n = self.row.len();
-        if n >= 2 {
-            self.before = self.row[n - 2].size;
-        }
-        self.row.clear();
-    }
-
-    /// Outputs the first edges of the row.
-    fn put_out(&mut self, count: usize) {
-        if self.edges.is_empty() {
+        let Some(kept) = self.vertices.last() else { return };
+        let off = self.distance(&kept.point, block.path.end());
+        let room = block.spline.map_or([0.0; 2], |settings| rooms(&settings));
+        if off[0] <= room[0] && off[1] <= room[1] && self.passed.len() < PASSED {
+            self.passed.push(Passed { block, off });
             return;
         }
-        let first = self.row.len() - 1 - self.edges.len();
-        self.settle(first..first + count + 1);
-        for at in first..first + count {
-            let Some(mut edge) = self.edges.pop_front() else { break };
-            let (from, to) = (&self.row[at], &self.row[at + 1]);
-            let before = if at > 0 { self.row[at - 1].size } else { self.before };
-            edge.block.spline = Some(what_is_left(&edge, [before, from.size, to.size]));
-            if [from, to].iter().any(|v| v.size.iter().any(|s| *s > 0.0)) {
-                let [start, end] = [from, to].map(moved);
-                if let Some(line) = LinePath::new(start, end, &edge.block.dynamics.feed_axes) {
-                    edge.block.path = Path::Line(line);
-                }
-            }
-            self.ready.push(edge.block);
-        }
-        let last = self.row.len() - 1 - self.edges.len();
-        self.row.drain(..last.saturating_sub(MARGIN));
+        self.keep(block);
     }
 
-    /// Moves points of the row, the first of which has been moved already.
-    fn settle(&mut self, points: Range<usize>) {
-        let Some(edge) = self.edges.front() else { return };
-        let feed = |i: &usize| is_feed(&edge.block, *i);
-        let groups: (Vec<usize>, Vec<usize>) = (0..edge.direction.len()).partition(feed);
-        let groups = [groups.0, groups.1];
-        let programmed: Vec<f64> = self.row.iter().map(|v| v.at).collect();
-        let mut knots = programmed.clone();
-        for (group, axes) in groups.iter().enumerate() {
-            let of_axis = |i: &usize| self.row.iter().map(|v| v.point[*i]).collect();
-            let coordinates: Vec<Vec<f64>> = axes.iter().map(of_axis).collect();
-            let noise = fit::roughness(&programmed, &coordinates);
-            let rooms = self.row.iter().zip(noise).map(|(v, noise)| {
-                let room = v.room[group].min(CERTAIN * noise);
-                if room > LEAST { room } else { 0.0 }
+    fn start(&mut self, point: AxisVec) {
+        let chord = Chord { settings: SplineSettings::default(), off: [0.0; 2] };
+        self.vertices.push(Vertex { point, at: 0.0, chord, stays: true });
+    }
+
+    fn distance(&self, p: &[f64], q: &[f64]) -> [f64; 2] {
+        [apart(p, q, &self.groups[0]), apart(p, q, &self.groups[1])]
+    }
+
+    /// Keeps the end of a block as a point of the run.
+    fn keep(&mut self, block: Block) {
+        let Some(kept) = self.vertices.last() else { return };
+        let length = apart(&kept.point, block.path.end(), &self.groups[0]);
+        let is_close = |chord: Chord| {
+            let room = rooms(&chord.settings);
+            chord.off[0] <= room[0] && chord.off[1] <= room[1]
+        };
+        // the feed axes may have returned to the point, or the tolerance may have changed
+        if length < 0.1 * block.path.length() || !self.chord(&block).is_some_and(is_close) {
+            self.keep_passed();
+        }
+        let Some(chord) = self.chord(&block) else { return };
+        if let [.., before, kept] = &self.vertices[..]
+            && ends_at([&before.point, &kept.point, block.path.end()], &block, &chord.settings)
+        {
+            let point = kept.point.clone();
+            let passed = std::mem::take(&mut self.passed);
+            self.end_run();
+            self.passed = passed;
+            self.groups = groups(&block);
+            self.start(point);
+        }
+        self.push_vertex(block, chord);
+        if self.vertices.len() > self.first + CHUNK + MARGIN {
+            self.put_out(false);
+        }
+    }
+
+    fn push_vertex(&mut self, block: Block, mut chord: Chord) {
+        let Some(kept) = self.vertices.last() else { return };
+        let point = block.path.end().clone();
+        let (from, length) = (kept.at, apart(&kept.point, &point, &self.groups[0]));
+        let count = self.passed.len();
+        let taken = chord.off[0].min(0.5 * length);
+        let mut last = from;
+        for (k, passed) in self.passed.drain(..).enumerate() {
+            let until = from + taken * (k + 1) as f64 / count as f64;
+            self.stretches.push_back(Stretch {
+                block: passed.block,
+                from: last,
+                until,
+                given: 0.0,
             });
-            let rooms: Vec<f64> = rooms.collect();
-            if group == 0 {
-                evened(&mut knots, &rooms);
-            }
-            let mut ways = fit::displacements(&knots, &coordinates, &rooms, fit::PATH);
-            if group == 0 {
-                keep_order(&coordinates, &mut ways);
-            }
-            self.move_points(group, axes, &points, &ways);
+            last = until;
+        }
+        if count > 1 {
+            // their stretches are as far from the point as they are themselves, to any side
+            chord.off = chord.off.map(|off| 2.0 * off);
+        }
+        let until = from + length;
+        self.stretches.push_back(Stretch { block, from: last, until, given: 0.0 });
+        self.vertices.push(Vertex { point, at: until, chord, stays: false });
+    }
+
+    /// Keeps the points that would be passed over.
+    fn keep_passed(&mut self) {
+        for Passed { block, .. } in std::mem::take(&mut self.passed) {
+            self.keep(block);
         }
     }
 
-    /// Displaces points of the row along one group of axes.
-    fn move_points(
-        &mut self,
-        group: usize,
-        axes: &[usize],
-        points: &Range<usize>,
-        ways: &[Vec<f64>],
-    ) {
-        // the first points also have a displacement from the previous part, and those after the last one get one from
-        // this part
-        let seam = if points.start > 0 { SEAM } else { 0 };
-        let until = (points.end + SEAM).min(self.row.len());
-        for i in points.start + 1..until {
-            let vertex = &mut self.row[i];
-            let new = ((i - points.start) as f64 / (seam + 1) as f64).min(1.0);
-            let new = new * new * (3.0 - 2.0 * new);
-            for (axis, way) in axes.iter().zip(ways) {
-                let moved = &mut vertex.moved[*axis];
-                *moved += new * (way[i] - *moved);
+    /// The edge from the last point to the end of a block.
+    fn chord(&self, block: &Block) -> Option<Chord> {
+        let mut chord = Chord { settings: block.spline?, off: [0.0; 2] };
+        for passed in &self.passed {
+            chord.settings = tighter(passed.block.spline?, &chord.settings);
+            chord.off = std::array::from_fn(|k| chord.off[k].max(passed.off[k]));
+        }
+        Some(chord)
+    }
+
+    /// Ends the run at the last programmed point.
+    fn end_run(&mut self) {
+        if let Some(Passed { block, .. }) = self.passed.pop() {
+            self.end_at(block);
+        }
+        if self.vertices.len() > 1 {
+            self.put_out(true);
+        }
+        if !self.vertices.is_empty() {
+            self.ready.push(Out::End);
+        }
+        self.vertices.clear();
+        self.stretches.clear();
+        self.first = 0;
+        self.before = (Vec::new(), 0);
+        self.last = None;
+    }
+
+    /// Ends the run with a block that is so short that its end would be passed over: instead, the last kept point is.
+    fn end_at(&mut self, block: Block) {
+        let end = block.path.end().clone();
+        let (Some(kept), Some(chord)) = (self.vertices.pop(), self.chord(&block)) else { return };
+        let Some(before) = self.vertices.last() else {
+            // nothing but such blocks
+            let passed = self.passed.drain(..).map(|p| p.block).chain([block]);
+            self.ready.extend(passed.map(Out::Block));
+            return;
+        };
+        let start = before.at;
+        let (old, new) = (kept.at - start, apart(&before.point, &end, &self.groups[0]));
+        if new < 0.5 * old {
+            self.vertices.push(kept);
+            self.keep_passed();
+            self.keep(block);
+            return;
+        }
+        let shifted = self.distance(&kept.point, &end);
+        let settings = tighter(kept.chord.settings, &chord.settings);
+        let off = |k: usize| kept.chord.off[k].max(shifted[k] + chord.off[k]);
+        let chord = Chord { settings, off: std::array::from_fn(off) };
+        let taken = chord.off[0].min(0.5 * new);
+        let scale = (new - taken) / old;
+        for stretch in self.stretches.iter_mut().rev().take_while(|s| s.from >= start) {
+            stretch.from = start + scale * (stretch.from - start);
+            stretch.until = start + scale * (stretch.until - start);
+        }
+        let mut from = self.stretches.back().map_or(start, |s| s.until);
+        let count = self.passed.len() + 1;
+        let blocks = self.passed.drain(..).map(|p| p.block).chain([block]);
+        for (k, block) in blocks.enumerate() {
+            let until = start + new - taken * (count - k - 1) as f64 / count as f64;
+            self.stretches.push_back(Stretch { block, from, until, given: 0.0 });
+            from = until;
+        }
+        self.vertices.push(Vertex { point: end, at: start + new, chord, stays: false });
+    }
+
+    /// Outputs the control points of the next points, or of all.
+    fn put_out(&mut self, to_end: bool) {
+        while self.first + 1 < self.vertices.len() {
+            let row = Row { vertices: &self.vertices, groups: &self.groups };
+            let window = built(&row);
+            let (before, cut) = std::mem::take(&mut self.before);
+            let mut whole = to_end;
+            let (nodes, start) = if before.is_empty() {
+                let start = window.nodes.iter().position(|n| n.place == (self.first, 0));
+                (window.nodes, start.unwrap_or(0))
+            } else if let Some(blended) = window.blended(&row, &before, (cut, self.first), SEAM) {
+                blended
+            } else {
+                whole = true;
+                (before, cut)
+            };
+            let (end, smooth) = if whole { (nodes.len() - 1, false) } else { self.cut(&nodes) };
+            for pair in nodes[start..=end].windows(2) {
+                self.put_out_leg(&pair[0], &pair[1]);
             }
-            vertex.size[group] = axes
-                .iter()
-                .map(|axis| vertex.moved[*axis] * vertex.moved[*axis])
-                .sum::<f64>()
-                .sqrt();
+            self.first = nodes[end].place.0;
+            if smooth {
+                self.before = (nodes, end);
+            } else {
+                self.vertices[self.first].stays = true;
+            }
+            self.forget();
+            if !to_end {
+                break;
+            }
         }
     }
-}
 
-/// Evens out the distances between points within their noise, which is as large along the path as across. A spline
-/// through unevenly spaced points has an uneven curvature, however well they are placed on the curve.
-fn evened(knots: &mut [f64], rooms: &[f64]) {
-    let numbers: Vec<f64> = (0..knots.len()).map(|i| i as f64).collect();
-    let step = |i: usize| if i > 0 { knots[i] - knots[i - 1] } else { 0.0 };
-    let mut rooms = rooms.to_vec();
-    for (i, room) in rooms.iter_mut().enumerate() {
-        let next = if i + 1 < knots.len() { step(i + 1) } else { 0.0 };
-        *room = room.min(KEPT * step(i).min(next));
-    }
-    let ways = fit::displacements(&numbers, &[knots.to_vec()], &rooms, fit::STEPS);
-    for (knot, way) in knots.iter_mut().zip(ways.iter().flatten()) {
-        *knot += way;
-    }
-}
-
-/// The point after its displacement.
-fn moved(v: &Vertex) -> AxisVec {
-    v.point.iter().zip(v.moved.iter()).map(|(p, d)| p + d).collect()
-}
-
-/// Whether the point between two edges stays where it is.
-fn stays(a: &Edge, b: &Edge) -> bool {
-    let (p, q) = (&a.block, &b.block);
-    let same = Arc::ptr_eq(&p.dynamics, &q.dynamics) || p.dynamics == q.dynamics;
-    let same = same
-        && p.spline == q.spline
-        && p.slope == q.slope
-        && p.tolerance == q.tolerance
-        && p.contour == q.contour
-        && p.full_override == q.full_override
-        && p.late_braking == q.late_braking
-        && p.end_velocity_mm_s.is_none()
-        && std::mem::discriminant(&p.feed) == std::mem::discriminant(&q.feed);
-    let noise_rad = 2.0 * GRAIN_MM * (a.length.recip() + b.length.recip());
-    !same
-        || a.length.max(b.length) > LONG_MM
-        || corner(a, b).is_none()
-        || turn(a, b).angle_rad > CORNER_RAD + noise_rad
-}
-
-/// Permitted displacement of the point between two edges, regardless of the noise.
-fn room(a: &Edge, b: &Edge) -> [f64; 2] {
-    let SplineSettings { path_dev_mm, track_dev_deg, .. } = b.settings;
-    let most = |dev: f64| if dev > 0.0 { MOST.min(SHARE * dev) } else { MOST };
-    // along the path the other axes follow the feed group
-    let follow =
-        if track_dev_deg > 0.0 { most(track_dev_deg) / pace(a).max(pace(b)) } else { MOST };
-    [most(path_dev_mm).min(follow), most(track_dev_deg)]
-}
-
-/// Movement of the fastest axis outside the feed group per mm of path.
-fn pace(edge: &Edge) -> f64 {
-    let axes = edge.direction.iter().enumerate().filter(|(i, _)| !is_feed(&edge.block, *i));
-    axes.map(|(_, u)| u.abs()).fold(0.0, f64::max)
-}
-
-/// The tolerances that remain after the displacements of the points around the corner at the start of an edge.
-fn what_is_left(edge: &Edge, sizes: [[f64; 2]; 3]) -> SplineSettings {
-    let largest = |group: usize| sizes.iter().map(|s| s[group]).fold(0.0, f64::max);
-    let settings = edge.settings;
-    let left = |dev: f64, taken: f64| if dev > 0.0 { dev - taken } else { dev };
-    SplineSettings {
-        path_dev_mm: left(settings.path_dev_mm, largest(0)),
-        track_dev_deg: left(settings.track_dev_deg, largest(1) + largest(0) * pace(edge)),
-        ..settings
-    }
-}
-
-/// Revokes the displacements of both ends of an edge that would vanish or reverse: for the shortest edges they are a
-/// large part of the length.
-fn keep_order(points: &[Vec<f64>], ways: &mut [Vec<f64>]) {
-    let count = points.first().map_or(0, Vec::len);
-    let mut i = 0;
-    while i + 1 < count {
-        let (before, behind) = (i.saturating_sub(1), (i + 2).min(count - 1));
-        let (mut along, mut chord2, mut length2) = (0.0, 0.0, 0.0);
-        for (p, d) in points.iter().zip(ways.iter()) {
-            let (old, chord) = (p[i + 1] - p[i], p[behind] - p[before]);
-            along += (old + d[i + 1] - d[i]) * chord;
-            chord2 += chord * chord;
-            length2 += old * old;
+    /// The control point at which a window ends, and whether the next one blends into it there.
+    fn cut(&self, nodes: &[Node]) -> (usize, bool) {
+        let ends = self.first + CHUNK / 2..=self.first + CHUNK;
+        let corner = nodes.iter().rposition(|n| n.is_corner && ends.contains(&n.place.0));
+        let at = nodes.iter().position(|n| n.place == (self.first + CHUNK, 0));
+        match (corner, at) {
+            (Some(corner), _) => (corner, false),
+            (None, Some(at)) => (at, !nodes[at].is_corner),
+            (None, None) => (nodes.len() - 1, false),
         }
-        let moves = fit::size(ways, i) > 0.0 || fit::size(ways, i + 1) > 0.0;
-        if moves && along < KEPT * (chord2 * length2).sqrt() {
-            for d in ways.iter_mut() {
-                (d[i], d[i + 1]) = (0.0, 0.0);
+    }
+
+    /// Drops the points that the next window does not need, and counts points and distances from there.
+    fn forget(&mut self) {
+        let count = self.first.saturating_sub(MARGIN);
+        let start = self.vertices[count].at;
+        self.vertices.drain(..count);
+        self.first -= count;
+        for vertex in &mut self.vertices {
+            vertex.at -= start;
+        }
+        for stretch in &mut self.stretches {
+            stretch.from -= start;
+            stretch.until -= start;
+        }
+        let (nodes, cut) = &mut self.before;
+        let old = cut.saturating_sub(build::BEHIND);
+        nodes.drain(..old);
+        *cut -= old;
+        for node in nodes.iter_mut().chain(&mut self.last) {
+            node.knot -= start;
+            node.place.0 = node.place.0.saturating_sub(count);
+        }
+    }
+
+    /// Outputs a leg of the control polygon with the parts of the blocks along it.
+    fn put_out_leg(&mut self, from: &Node, to: &Node) {
+        let interval = to.knot - from.knot;
+        let near = NEAR_MM.min(NEAR * interval);
+        let mut parts: SmallVec<[Part; 2]> = SmallVec::new();
+        let mut at = from.knot;
+        while at < to.knot {
+            let next = self.stretches.get(1).map(|next| next.until);
+            let Some(stretch) = self.stretches.front_mut() else { break };
+            let until = stretch.until;
+            // a block that ends close to a knot ends there, unless the next one would vanish
+            let is_near = (until - to.knot).abs() <= near;
+            let snaps = is_near && next.is_none_or(|n| n - to.knot > 0.5 * (n - until));
+            let last = until <= to.knot || snaps;
+            let end = if snaps { to.knot } else { until.min(to.knot) };
+            let share =
+                if last { 1.0 - stretch.given } else { (end - at) / (until - stretch.from) };
+            stretch.given += share;
+            let block = stretch.block.clone();
+            parts.push(Part { block, until: (end - from.knot) / interval, share, last });
+            at = end;
+            if last {
+                self.stretches.pop_front();
             }
-            // the edge before it has changed
-            i = before;
-        } else {
-            i += 1;
+        }
+        let of_last = self.last.as_ref().map_or([0.0; 2], |last| last.off);
+        let off = std::array::from_fn(|k| of_last[k].max(from.off[k]));
+        let settings = self.left(from, off);
+        self.ready.extend(Edge::new(from, to, parts, settings).map(Out::Edge));
+        self.last = Some(to.clone());
+    }
+
+    /// The settings of the corner at a control point, with what the spline may still deviate there.
+    fn left(&self, corner: &Node, off: [f64; 2]) -> SplineSettings {
+        let i = corner.place.0;
+        let behind = self.vertices.get(i + 1).map(|v| v.chord);
+        let before = if i > 0 { self.vertices.get(i).map(|v| v.chord) } else { None };
+        let mut chords = before.into_iter().chain(behind);
+        let Some(first) = chords.next() else { return SplineSettings::default() };
+        let own = chords.fold(first, |a, b| Chord {
+            settings: tighter(a.settings, &b.settings),
+            off: std::array::from_fn(|k| a.off[k].max(b.off[k])),
+        });
+        let left = |dev: f64, k: usize| {
+            if dev > 0.0 { (dev - own.off[k] - off[k]).max(f64::MIN_POSITIVE) } else { dev }
+        };
+        SplineSettings {
+            path_dev_mm: left(own.settings.path_dev_mm, 0),
+            track_dev_deg: left(own.settings.track_dev_deg, 1),
+            ..own.settings
         }
     }
 }

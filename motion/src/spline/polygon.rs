@@ -4,12 +4,16 @@ use super::Span;
 use super::edge::Edge;
 use crate::axis::AxisVec;
 use crate::path::PolyPiece;
+use crate::path::piece::section;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 
 /// Largest number of subdivisions of the legs at a corner. Each reduces the deviation by at least a third, where less
 /// than a tenth of it has to remain.
 const DEEPEST: usize = 32;
+
+/// Smallest share of a polynomial that becomes one of its own.
+const SLIVER: f64 = 1e-9;
 
 /// A control point with its knot.
 #[derive(Clone, Debug)]
@@ -20,6 +24,78 @@ struct Node {
     knot: f64,
     /// The largest reach of the spline at a corner that is still at its programmed point; otherwise `None`.
     reach: Option<f64>,
+}
+
+/// The first polynomial of a fit next to a corner, seen from the corner. The control points that the corner adds are
+/// knots inserted into the fit, which leaves it unchanged.
+struct FitEnd {
+    bezier: [AxisVec; 4],
+    /// The first two knot intervals.
+    intervals: [f64; 2],
+}
+
+impl FitEnd {
+    /// The fit that starts with an edge, if a corner there has its own control points.
+    fn at_start(run: &VecDeque<Edge>, edge: usize) -> Option<Self> {
+        let of = |i: usize| run.get(i).filter(|edge| edge.fitted);
+        let edges = [of(edge)?, of(edge + 1)?, of(edge + 2)?];
+        edges[0].corner.e?;
+        let points = edges.map(|edge| edge.block.path.start());
+        Some(Self::new(points, edges.map(|edge| edge.interval)))
+    }
+
+    /// The fit that ends with an edge.
+    fn at_end(run: &VecDeque<Edge>, edge: usize) -> Option<Self> {
+        let of = |i: usize| run.get(i).filter(|edge| edge.fitted);
+        run.get(edge + 1)?.corner.e?;
+        let edges = [of(edge)?, of(edge.checked_sub(1)?)?, of(edge.checked_sub(2)?)?];
+        let points =
+            [edges[0].block.path.end(), edges[0].block.path.start(), edges[1].block.path.start()];
+        Some(Self::new(points, edges.map(|edge| edge.interval)))
+    }
+
+    fn new([p, q, r]: [&AxisVec; 3], [h, k, l]: [f64; 3]) -> Self {
+        let b1 = between(p, q, h / (2.0 * h + k));
+        let b2 = between(p, q, 2.0 * h / (2.0 * h + k));
+        let b3 = between(&b2, &between(q, r, h / (h + k + l)), h / (h + k));
+        Self { bezier: [p.clone(), b1, b2, b3], intervals: [h, k] }
+    }
+
+    /// The blossom: the control point with these three knots.
+    fn blossom(&self, knots: [f64; 3]) -> AxisVec {
+        let mut points = self.bezier.to_vec();
+        for knot in knots {
+            points = points
+                .windows(2)
+                .map(|p| between(&p[0], &p[1], knot / self.intervals[0]))
+                .collect();
+        }
+        points.swap_remove(0)
+    }
+
+    /// The control point at `e`.
+    fn near(&self, e: f64) -> AxisVec {
+        self.blossom([0.0, e, 2.0 * e])
+    }
+
+    /// The control point at `2 e`.
+    fn far(&self, e: f64) -> AxisVec {
+        self.blossom([e, 2.0 * e, self.intervals[0]])
+    }
+
+    /// The control point at the next knot of the fit.
+    fn next(&self, e: f64) -> AxisVec {
+        let [h, k] = self.intervals;
+        self.blossom([2.0 * e, h, h + k])
+    }
+}
+
+/// The control point at the start of an edge, if a corner at the other end of one of its legs changes it.
+fn inserted(run: &VecDeque<Edge>, edge: usize) -> Option<AxisVec> {
+    let before = edge
+        .checked_sub(1)
+        .and_then(|before| Some(FitEnd::at_start(run, before)?.next(run[before].corner.e?)));
+    before.or_else(|| Some(FitEnd::at_end(run, edge)?.next(run.get(edge + 1)?.corner.e?)))
 }
 
 /// Control points around an edge.
@@ -34,26 +110,33 @@ pub(super) struct ControlPolygon {
 impl ControlPolygon {
     pub(super) fn around(run: &VecDeque<Edge>, edge: usize, span: &Span) -> Self {
         let mut out = Self { nodes: SmallVec::new(), first: 0, last: 0 };
-        let mut at = 0.0;
+        let (mut at, mut knot) = (0.0, 0.0);
         for i in span.edges.clone() {
-            let Edge { length, corner, block, .. } = &run[i];
+            let Edge { length, interval, corner, block, .. } = &run[i];
             out.last = if i == edge + 1 { out.nodes.len() } else { out.last };
             out.first = if i == edge { out.nodes.len() } else { out.first };
             let reach = corner.e.is_none().then_some(corner.reach);
-            out.push(block.path.start().clone(), at, reach);
+            let point = inserted(run, i).unwrap_or_else(|| block.path.start().clone());
+            out.nodes.push(Node { point, at, knot, reach });
             let behind = run.get(i + 1).and_then(|next| next.corner.e);
-            let near = corner.e.into_iter().flat_map(|e| [e, 2.0 * e]);
-            let far = behind.into_iter().flat_map(|e| [length - 2.0 * e, length - e]);
-            for d in near.chain(far) {
-                let mut p = block.path.start().clone();
-                block.path.position(d, &mut p);
-                out.push(p, at + d, None);
+            let (start, end) = (FitEnd::at_start(run, i), FitEnd::at_end(run, i));
+            if let Some(e) = corner.e {
+                let fit = start.as_ref();
+                out.push_on(run, i, (at, knot), e, fit.map(|fit| fit.near(e)));
+                out.push_on(run, i, (at, knot), 2.0 * e, fit.map(|fit| fit.far(e)));
+            }
+            if let Some(e) = behind {
+                let fit = end.as_ref();
+                out.push_on(run, i, (at, knot), interval - 2.0 * e, fit.map(|fit| fit.far(e)));
+                out.push_on(run, i, (at, knot), interval - e, fit.map(|fit| fit.near(e)));
             }
             at += length;
+            knot += interval;
         }
         if let Some(last) = run.get(span.edges.end.wrapping_sub(1)) {
             out.last = if span.edges.end == edge + 1 { out.nodes.len() } else { out.last };
-            out.push(last.block.path.end().clone(), at, None);
+            let point = last.block.path.end().clone();
+            out.nodes.push(Node { point, at, knot, reach: None });
         }
         if span.to_end {
             out.mirror_end();
@@ -69,8 +152,23 @@ impl ControlPolygon {
         out
     }
 
-    fn push(&mut self, point: AxisVec, at: f64, reach: Option<f64>) {
-        self.nodes.push(Node { point, at, knot: at, reach });
+    /// Pushes a control point next to a corner, at a knot within a leg: that of the fit, or else on the leg.
+    fn push_on(
+        &mut self,
+        run: &VecDeque<Edge>,
+        edge: usize,
+        (at, knot): (f64, f64),
+        offset: f64,
+        on_fit: Option<AxisVec>,
+    ) {
+        let Edge { block, length, interval, .. } = &run[edge];
+        let along = offset * length / interval;
+        let point = on_fit.unwrap_or_else(|| {
+            let mut p = block.path.start().clone();
+            block.path.position(along, &mut p);
+            p
+        });
+        self.nodes.push(Node { point, at: at + along, knot: knot + offset, reach: None });
     }
 
     /// Mirrors two control points at the end, which makes it an exact end without curvature.
@@ -95,9 +193,9 @@ impl ControlPolygon {
 
     fn mirrored(&self, center: usize, node: usize) -> Node {
         let (c, n) = (&self.nodes[center], &self.nodes[node]);
-        let at = 2.0 * c.at - n.at;
+        let (at, knot) = (2.0 * c.at - n.at, 2.0 * c.knot - n.knot);
         let point = c.point.iter().zip(n.point.iter()).map(|(c, p)| 2.0 * c - p).collect();
-        Node { point, at, knot: at, reach: None }
+        Node { point, at, knot, reach: None }
     }
 
     fn knot(&self, j: usize) -> f64 {
@@ -127,16 +225,35 @@ impl ControlPolygon {
         self.control(j, self.knot(j), self.knot(j))
     }
 
-    /// The polynomials of the edge.
-    pub(super) fn pieces(&self) -> Vec<PolyPiece> {
+    /// The polynomials of the edge for each of its parts; the ends of all but the last are shares of its knot interval.
+    pub(super) fn stretches(&self, ends: impl Iterator<Item = f64>) -> Vec<Vec<PolyPiece>> {
+        let (from, to) = (self.knot(self.first), self.knot(self.last));
+        let mut ends = ends.map(|share| from + share * (to - from)).peekable();
+        let (mut out, mut here) = (Vec::new(), Vec::new());
         let mut start = self.joint(self.first);
-        (self.first..self.last)
-            .map(|j| {
-                let end = self.joint(j + 1);
-                let from = std::mem::replace(&mut start, end);
-                self.piece(j, &from, &start)
-            })
-            .collect()
+        for j in self.first..self.last {
+            let end = self.joint(j + 1);
+            let joint = std::mem::replace(&mut start, end);
+            let piece = self.piece(j, &joint, &start);
+            let part = |from: f64, to: f64| piece.iter().map(|c| section(c, from, to)).collect();
+            let (before, behind) = (self.knot(j), self.knot(j + 1));
+            let mut passed = 0.0;
+            while let Some(end) = ends.next_if(|end| *end <= behind) {
+                let share = (end - before) / (behind - before);
+                if share - passed > SLIVER {
+                    here.push(part(passed, share));
+                    passed = share;
+                }
+                out.push(std::mem::take(&mut here));
+            }
+            if passed == 0.0 {
+                here.push(piece);
+            } else if 1.0 - passed > SLIVER {
+                here.push(part(passed, 1.0));
+            }
+        }
+        out.push(here);
+        out
     }
 
     /// The polynomial between the points of the spline at knot `j` and the next one.

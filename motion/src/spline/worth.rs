@@ -9,6 +9,7 @@
 
 use super::Splining;
 use super::edge::{Curve, Edge};
+use crate::block::Block;
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::worth::{Part, Passage};
 
@@ -20,7 +21,7 @@ impl Splining {
     /// Whether the spline takes no longer than the sharp corner at the start of an edge.
     pub(super) fn is_worth(&self, corner: usize, kernel_active: bool) -> bool {
         let (from, to) = (&self.run[corner - 1], &self.run[corner]);
-        let (a, b) = (&from.block, &to.block);
+        let (a, b) = (&from.as_last(), &to.block);
         // the speed of a sharp corner under AX_DEV is only known in the planner; an end speed is programmed explicitly
         let monitored = [a, b].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
         if monitored || a.end_velocity_mm_s.is_some() {
@@ -32,12 +33,13 @@ impl Splining {
         let mut around: Vec<Part> = near(from.curves.iter().rev(), pre_mm).collect();
         around.reverse();
         around.extend(near(to.curves.iter(), post_mm));
-        self.passage(corner, kernel_active).is_worth(&around, pre_mm, post_mm)
+        self.passage((a, b), kernel_active).is_worth(&around, pre_mm, post_mm)
     }
 
     /// Whether ending the spline at the start of an edge saves time, although it then bends more next to it.
     pub(super) fn gains_as_end(&self, corner: usize, round: usize, kernel_active: bool) -> bool {
-        let passage = self.passage(corner, kernel_active);
+        let (from, to) = (self.run[corner - 1].as_last(), &self.run[corner].block);
+        let passage = self.passage((&from, to), kernel_active);
         let time_with = |and: Option<usize>| {
             let known =
                 |i: usize| self.run[i].corner.sharp_since.is_some_and(|since| since < round);
@@ -58,8 +60,7 @@ impl Splining {
         time_with(Some(corner)) < (1.0 - GAIN) * time_with(None)
     }
 
-    fn passage(&self, corner: usize, kernel_active: bool) -> Passage<'_> {
-        let (from, to) = (&self.run[corner - 1].block, &self.run[corner].block);
+    fn passage<'a>(&self, (from, to): (&'a Block, &'a Block), kernel_active: bool) -> Passage<'a> {
         Passage { from, bridged: &[], to, cycle: self.cycle, kernel_active }
     }
 }

@@ -1,240 +1,235 @@
-//! Smoothing spline of third differences: the noise of a row of points, and the points without it.
+//! Penalised regression spline: the control points of a row of points.
 //!
-//! The displacements `d` of the points `p` minimise `sum w |d|^2 + sum l^6 |p''' + d'''|^2`, where the third
-//! derivatives are divided differences over the distances along the polygon (Whittaker and Henderson's graduation;
-//! Reinsch 1967 for the corresponding spline). For all `w = 1` a wave of length `2 pi / k` keeps `1 / (1 + (k l)^6)` of
-//! its amplitude: waves shorter than `2 pi l` vanish, and a circle of radius `r` shrinks by at most `l^6 / r^5`. A
-//! third difference is the jerk of the path at constant speed.
+//! The control points `c` minimise `sum w |F(t_i) - p_i|^2 + sum l^6 |F'''|^2`, the second sum over the knot intervals
+//! (Eilers and Marx 1996, with the third derivative instead of differences; de Boor, *A Practical Guide to Splines*, for
+//! the basis). For `w = 1` a wave of length `2 pi / k` keeps `1 / (1 + (k l)^6)` of its amplitude: waves shorter than
+//! `2 pi l` vanish, and a circle of radius `r` shrinks by at most `l^6 / r^5`. The third derivative is the jerk of the
+//! path at constant speed.
 //!
-//! `l` is shorter where the path has a small radius. A circle that would shrink by as much as its points may move would be
-//! shaped by those limits instead of the spline, with a jump of the curvature at each of them.
+//! `l` is shorter where the path has a small radius: a circle that would shrink by as much as its points may move would
+//! be shaped by those limits instead of the spline, with a jump of the curvature at each of them. It is also shorter
+//! near both ends, where the curvature rises from 0.
 //!
-//! Every displacement stays within its limit: the weights of points that would exceed it are increased until they do
-//! not (multipliers of the bounds).
+//! Every point stays within its limit from the curve: the weights of points that would exceed it are increased until
+//! they do not (multipliers of the bounds).
+//!
+//! A curve through the points is up to the sagitta of its chords outside the polygon. The curve is moved inwards by half
+//! of it, which halves the deviation.
 
-use std::iter::zip;
+use super::knots::{Spline, evened};
 
-/// The length `l`.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Reach {
-    /// Upper bound as a multiple of the average distance between neighbours.
-    points: f64,
-    /// Upper bound in the unit of the distances.
-    whole: f64,
-}
-
-impl Reach {
-    /// Limited so that a circle of this curvature shrinks by no more than [`SHRINKS`] of the limit of its points.
-    fn on_a_bend(self, bend: f64, room: f64) -> Self {
-        let most = libm::pow(SHRINKS * room / libm::pow(bend, 5.0), 1.0 / 6.0);
-        Self { whole: if bend > 0.0 { self.whole.min(most) } else { self.whole }, ..self }
-    }
-}
-
-/// Largest curvature around every point, in the reciprocal unit of the distances, from points so far apart that noise
-/// hardly changes it.
-fn bends(knots: &[f64], axes: &[Vec<f64>]) -> Vec<f64> {
-    let count = knots.len();
-    let mut own = vec![0.0; count];
-    for (i, own) in own.iter_mut().enumerate() {
-        let from = knots.partition_point(|t| *t <= knots[i] - SPAN).max(1) - 1;
-        let to = knots.partition_point(|t| *t < knots[i] + SPAN).min(count - 1);
-        if knots[i] - knots[from] >= SPAN && knots[to] - knots[i] >= SPAN {
-            let [a, b] = [knots[i] - knots[from], knots[to] - knots[i]];
-            let second = |p: &Vec<f64>| 2.0 * ((p[to] - p[i]) / b - (p[i] - p[from]) / a) / (a + b);
-            *own = axes.iter().map(|p| second(p) * second(p)).sum::<f64>().sqrt();
-        }
-    }
-    let around = |i: usize| {
-        let from = knots.partition_point(|t| *t < knots[i] - 2.0 * SPAN);
-        let to = knots.partition_point(|t| *t <= knots[i] + 2.0 * SPAN);
-        own[from..to].iter().copied().fold(0.0, f64::max)
-    };
-    (0..count).map(around).collect()
-}
-
-/// For points on a path in mm: rounding matters for chords below this length, and the bends it causes are shorter.
-pub(super) const PATH: Reach = Reach { points: 20.0, whole: 0.4 };
-/// For distances over the number of the point.
-pub(super) const STEPS: Reach = Reach { points: 8.0, whole: f64::INFINITY };
+/// Bounds of `l`: as a multiple of the knot interval, and in mm. Rounding matters for chords below the latter, and the
+/// bends it causes are shorter.
+const REACH_INTERVALS: f64 = 20.0;
+const REACH_MM: f64 = 0.4;
 /// Share of the limit of its points by which a circle may shrink. With a tenth a circle of 1 mm in chords of 0.02 mm
 /// takes 13 % longer.
 const SHRINKS: f64 = 0.02;
 /// Distance in mm of the points that a curvature is taken from: rounding to three decimals changes it by up to 0.05 1/mm.
 const SPAN: f64 = 0.2;
-/// Rounds of weights, and the share of its limit to which they bring a point; an excess after the last round is cut
-/// off. The number is the same for every row in which a point needs a weight, so that no point depends on how difficult
-/// distant ones are.
+/// Rounds of weights, and the share of its limit to which they bring a point.
 const ROUNDS: usize = 12;
 const AIM: f64 = 0.9;
-/// Number of points in a difference that measures noise, and of points on either side for which the largest one counts:
-/// rounded coordinates that hardly change keep their value for many points, and their noise is in the steps between.
-const STENCIL: usize = 9;
-const SPREAD: usize = 64;
+/// Share of the square of a chord times the curvature by which the curve moves inwards: half the sagitta.
+const INWARDS: f64 = 1.0 / 16.0;
+/// Number of chords on either side of which the largest counts there.
+const CHORDS: usize = 3;
 
 /// Rows of a symmetric matrix: the diagonal, and the three elements before it.
 type Bands = Vec<[f64; 4]>;
 
-/// Magnitude of the roughness around every point, in the unit of the coordinates.
-///
-/// It is the eighth divided difference, divided by the root of the sum of the squares of its factors. For independent
-/// errors it is their standard deviation, for a circle with steps of `t` rad it is `r t^8 / 113`.
-pub(super) fn roughness(knots: &[f64], axes: &[Vec<f64>]) -> Vec<f64> {
-    let count = knots.len();
+/// Largest curvature around every point, in the reciprocal unit of the parameters, from points so far apart that noise
+/// hardly changes it.
+pub(super) fn bends(at: &[f64], axes: &[&[f64]]) -> Vec<f64> {
+    let count = at.len();
     let mut own = vec![0.0; count];
-    for (first, t) in knots.windows(STENCIL).enumerate() {
-        let factor = |k: usize| {
-            let others = (0..STENCIL).filter(|m| *m != k);
-            1.0 / others.map(|m| t[k] - t[m]).product::<f64>()
-        };
-        let factors: [f64; STENCIL] = std::array::from_fn(factor);
-        let norm2: f64 = factors.iter().map(|c| c * c).sum();
-        let squares = axes.iter().map(|p| {
-            let p = &p[first..first + STENCIL];
-            let sum: f64 = zip(&factors, p).map(|(c, x)| c * (x - p[STENCIL / 2])).sum();
-            sum * sum
-        });
-        own[first + STENCIL / 2] = (squares.sum::<f64>() / norm2).sqrt();
+    for (i, own) in own.iter_mut().enumerate() {
+        let from = at.partition_point(|t| *t <= at[i] - SPAN).max(1) - 1;
+        let to = at.partition_point(|t| *t < at[i] + SPAN).min(count - 1);
+        if at[i] - at[from] >= SPAN && at[to] - at[i] >= SPAN {
+            let [a, b] = [at[i] - at[from], at[to] - at[i]];
+            let second = |p: &[f64]| 2.0 * ((p[to] - p[i]) / b - (p[i] - p[from]) / a) / (a + b);
+            *own = axes.iter().map(|p| second(p) * second(p)).sum::<f64>().sqrt();
+        }
     }
-    let around = |i: usize| &own[i.saturating_sub(SPREAD)..(i + SPREAD + 1).min(count)];
-    (0..count).map(|i| around(i).iter().copied().fold(0.0, f64::max)).collect()
+    let around = |i: usize| {
+        let from = at.partition_point(|t| *t < at[i] - 2.0 * SPAN);
+        let to = at.partition_point(|t| *t <= at[i] + 2.0 * SPAN);
+        own[from..to].iter().copied().fold(0.0, f64::max)
+    };
+    (0..count).map(around).collect()
 }
 
-/// A third derivative: the factors of the four points from `first` on, times `l^3`.
-fn third(knots: &[f64], first: usize, reach: Reach) -> [f64; 4] {
-    let t = &knots[first..first + 4];
-    let reach = (reach.points * (t[3] - t[0]) / 3.0).min(reach.whole);
-    let scale = 6.0 * reach * reach * reach;
-    std::array::from_fn(|k| {
-        let others = (0..4).filter(|m| *m != k);
-        scale / others.map(|m| t[k] - t[m]).product::<f64>()
-    })
+/// Factors of four control points from `first` on.
+struct Equation {
+    first: usize,
+    factors: [f64; 4],
 }
 
-/// The third derivative of coordinates, difference by difference, so that it is exactly 0 where they are all equal.
-fn third_of(knots: &[f64], factors: &[f64; 4], p: &[f64]) -> f64 {
-    let slope = |i: usize| (p[i + 1] - p[i]) / (knots[i + 1] - knots[i]);
-    let bend = |i: usize| (slope(i + 1) - slope(i)) / (knots[i + 2] - knots[i]);
-    let whole = (bend(1) - bend(0)) / (knots[3] - knots[0]);
-    // the last factor contains `whole` as a divisor
-    factors[3] * (knots[3] - knots[0]) * (knots[3] - knots[1]) * (knots[3] - knots[2]) * whole
+impl Equation {
+    /// From the factors of the control points `j - 1..=j + 2` of `0..=n`, the outer ones of which are mirrored.
+    fn new(j: usize, n: usize, [a, b, c, d]: [f64; 4]) -> Self {
+        if j == 0 {
+            Self { first: 0, factors: [b + 2.0 * a, c - a, d, 0.0] }
+        } else if j + 1 == n {
+            Self { first: n - 3, factors: [0.0, a, b - d, c + 2.0 * d] }
+        } else {
+            Self { first: j - 1, factors: [a, b, c, d] }
+        }
+    }
+
+    /// The sum over differences from `p`.
+    fn of(&self, points: &[f64], p: f64) -> f64 {
+        self.factors.iter().zip(&points[self.first..]).map(|(f, c)| f * (c - p)).sum()
+    }
+
+    fn add_to(&self, bands: &mut Bands, weight: f64) {
+        let f = &self.factors;
+        for a in 0..4 {
+            for b in 0..=a {
+                bands[self.first + a][a - b] += weight * f[a] * f[b];
+            }
+        }
+    }
+
+    fn add_right(&self, right: &mut [f64], value: f64) {
+        for (r, f) in right[self.first..].iter_mut().zip(&self.factors) {
+            *r += f * value;
+        }
+    }
 }
 
-/// Displacements of the points along every axis. `room` is the largest permitted displacement of a point; with 0 it
-/// stays.
-pub(super) fn displacements(
+/// Control points by axis for points (by axis) at the parameters `at`, the outer ones at the first and the last point.
+/// `room`: largest permitted distance of a point from the curve. At least five points.
+pub(super) fn control_points(
     knots: &[f64],
-    axes: &[Vec<f64>],
+    at: &[f64],
+    axes: &[&[f64]],
     room: &[f64],
-    reach: Reach,
 ) -> Vec<Vec<f64>> {
-    let count = knots.len();
-    let mut out = vec![vec![0.0; count]; axes.len()];
-    if count < 4 || room.iter().all(|r| *r <= 0.0) {
-        return out;
-    }
-    let bends = if reach.whole.is_finite() { bends(knots, axes) } else { vec![0.0; count] };
-    let thirds: Vec<[f64; 4]> = (0..count - 3)
-        .map(|j| {
-            let [bend, room] = [&bends[..], room].map(|of| f64::max(of[j + 1], of[j + 2]));
-            third(knots, j, reach.on_a_bend(bend, room))
+    let n = at.len() - 1;
+    let frame = Spline::new(knots, Vec::new());
+    let mut interval = 0;
+    let points: Vec<Equation> = (1..n)
+        .map(|i| {
+            interval = frame.interval(interval, at[i]);
+            Equation::new(interval, n, frame.basis(interval, at[i]))
         })
         .collect();
-    let pulls: Vec<Vec<f64>> = axes.iter().map(|p| pull(knots, &thirds, p)).collect();
-    let penalty = penalty(&thirds, count);
-    let mut weights = vec![1.0_f64; count];
+    let thirds: Vec<Equation> = reaches(knots, at, axes, room)
+        .iter()
+        .enumerate()
+        .map(|(k, l)| Equation::new(k, n, frame.third_factors(k).map(|f| f * l * l * l)))
+        .collect();
+    // the unknowns are differences from the points, so that what is equal stays exactly equal
+    let off: Vec<Vec<f64>> = axes
+        .iter()
+        .map(|p| points.iter().zip(&p[1..]).map(|(e, x)| -e.of(p, *x)).collect())
+        .collect();
+    let mut penalty = vec![[0.0; 4]; n + 1];
+    let mut pulls = vec![vec![0.0; n + 1]; axes.len()];
+    for third in &thirds {
+        third.add_to(&mut penalty, 1.0);
+        for (pull, p) in pulls.iter_mut().zip(axes) {
+            third.add_right(pull, -third.of(p, p[third.first]));
+        }
+    }
+    let mut weights = vec![1.0_f64; n - 1];
+    let mut out = pulls.clone();
     for round in 0..ROUNDS {
-        let bands = factorised(&penalty, &weights, room);
-        for (out, pull) in zip(&mut out, &pulls) {
+        let mut bands = penalty.clone();
+        for (equation, weight) in points.iter().zip(&weights) {
+            equation.add_to(&mut bands, *weight);
+        }
+        factorise(&mut bands);
+        for ((out, pull), off) in out.iter_mut().zip(&pulls).zip(&off) {
             out.copy_from_slice(pull);
-            for (x, room) in zip(out.iter_mut(), room) {
-                *x = if *room > 0.0 { *x } else { 0.0 };
+            for ((equation, weight), off) in points.iter().zip(&weights).zip(off) {
+                equation.add_right(out, weight * off);
             }
+            (out[0], out[n]) = (0.0, 0.0);
             solve(&bands, out);
         }
         let mut worst = 0.0_f64;
-        for i in 0..count {
-            if room[i] > 0.0 {
-                let excess = size(&out, i) / room[i];
-                weights[i] = (weights[i] * excess / AIM).max(1.0);
-                worst = worst.max(excess);
-            }
+        for (i, equation) in points.iter().enumerate() {
+            let misses = out.iter().zip(&off).map(|(x, off)| equation.of(x, 0.0) - off[i]);
+            let excess = misses.map(|d| d * d).sum::<f64>().sqrt() / room[i + 1];
+            weights[i] = (weights[i] * excess / AIM).max(1.0);
+            worst = worst.max(excess);
         }
-        if round == 0 && worst <= AIM {
+        if worst <= if round == 0 { AIM } else { 1.0 } {
             break;
         }
     }
-    for i in 0..count {
-        let size = size(&out, i);
-        if size > room[i] {
-            for d in &mut out {
-                d[i] *= room[i] / size;
-            }
+    for (out, p) in out.iter_mut().zip(axes) {
+        out.iter_mut().zip(*p).for_each(|(x, p)| *x += p);
+    }
+    moved_inwards(knots, at, out)
+}
+
+/// The length `l` for every knot interval.
+fn reaches(knots: &[f64], at: &[f64], axes: &[&[f64]], room: &[f64]) -> Vec<f64> {
+    let bends = bends(at, axes);
+    let n = knots.len() - 1;
+    let of_interval = |k: usize| {
+        let h = knots[k + 1] - knots[k];
+        let (bend, room) = (bends[k].max(bends[k + 1]), room[k].min(room[k + 1]));
+        let mut l = (REACH_INTERVALS * h).min(REACH_MM);
+        if bend > 0.0 {
+            let middle = 0.5 * (knots[k] + knots[k + 1]);
+            let to_end = (middle - knots[0]).min(knots[n] - middle);
+            l = l.min(libm::pow(SHRINKS * room / libm::pow(bend, 5.0), 1.0 / 6.0));
+            l = l.min((room / bend).sqrt().max(0.5 * to_end));
+        }
+        l.max(0.5 * h)
+    };
+    (0..n).map(of_interval).collect()
+}
+
+fn moved_inwards(knots: &[f64], at: &[f64], mut points: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let n = at.len() - 1;
+    let longest = |i: usize| {
+        let around = &at[i.saturating_sub(CHORDS)..(i + CHORDS + 1).min(n + 1)];
+        around.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max)
+    };
+    let mut chords: Vec<f64> = (0..=n).map(longest).collect();
+    evened(&mut chords);
+    let spline = Spline::new(knots, points.clone());
+    for (axis, points) in points.iter_mut().enumerate() {
+        for j in 1..n {
+            points[j] += INWARDS * chords[j] * chords[j] * spline.second(axis, j);
         }
     }
-    out
+    points
 }
 
-/// Length of the displacement of a point.
-pub(super) fn size(displacements: &[Vec<f64>], i: usize) -> f64 {
-    displacements.iter().map(|d| d[i] * d[i]).sum::<f64>().sqrt()
-}
-
-/// The pull of the third derivatives of the programmed points on each of them.
-fn pull(knots: &[f64], thirds: &[[f64; 4]], p: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; p.len()];
-    for (j, factors) in thirds.iter().enumerate() {
-        let here = third_of(&knots[j..j + 4], factors, &p[j..j + 4]);
-        for (o, c) in zip(&mut out[j..], factors) {
-            *o -= c * here;
-        }
-    }
-    out
-}
-
-/// The matrix of the third derivatives.
-fn penalty(thirds: &[[f64; 4]], count: usize) -> Bands {
-    let mut out = vec![[0.0; 4]; count];
-    for (j, c) in thirds.iter().enumerate() {
-        for a in 0..4 {
-            for b in 0..=a {
-                out[j + a][a - b] += c[a] * c[b];
-            }
-        }
-    }
-    out
-}
-
-/// The matrix with the weights, as factors `L D L^T` with `D` in place of the diagonal. Points with `room` 0 are
-/// decoupled.
-fn factorised(penalty: &Bands, weights: &[f64], room: &[f64]) -> Bands {
-    let mut out = penalty.clone();
-    for i in 0..out.len() {
-        if room[i] <= 0.0 {
-            out[i] = [1.0, 0.0, 0.0, 0.0];
+/// Factorises a matrix as `L D L^T`, with `D` in place of the diagonal. The first and the last unknown are 0.
+fn factorise(bands: &mut Bands) {
+    let last = bands.len() - 1;
+    for i in 0..=last {
+        if i == 0 || i == last {
+            bands[i] = [1.0, 0.0, 0.0, 0.0];
             continue;
         }
-        let mut row = out[i];
-        row[0] += weights[i];
+        let mut row = bands[i];
         for back in (1..4.min(i + 1)).rev() {
-            if room[i - back] <= 0.0 {
+            if back == i {
                 row[back] = 0.0;
                 continue;
             }
             // row[far] still contains the product with the diagonal
-            let before = &out[i - back];
+            let before = &bands[i - back];
             let known: f64 =
                 (back + 1..4.min(i + 1)).map(|far| row[far] * before[far - back]).sum();
             row[back] -= known;
         }
         for back in 1..4.min(i + 1) {
             let product = row[back];
-            row[back] /= out[i - back][0];
+            row[back] /= bands[i - back][0];
             row[0] -= product * row[back];
         }
-        out[i] = row;
+        bands[i] = row;
     }
-    out
 }
 
 /// Solves for a right-hand side, in place.
@@ -245,7 +240,7 @@ fn solve(factors: &Bands, x: &mut [f64]) {
             x[i] -= factors[i][back] * x[i - back];
         }
     }
-    for (x, row) in zip(x.iter_mut(), factors) {
+    for (x, row) in x.iter_mut().zip(factors) {
         *x /= row[0];
     }
     for i in (0..count).rev() {

@@ -1,0 +1,123 @@
+//! The points of a run that the spline is fitted to.
+
+use super::super::edge::is_feed;
+use crate::axis::AxisVec;
+use crate::block::{Block, SplineSettings};
+
+/// Share of the tolerance that may be used to remove noise, or to pass over points that are close together.
+const SHARE: f64 = 0.3;
+/// Largest distance in mm (deg) used for that: rounding to a ten-thousandth of an inch in three axes is 2.2 um.
+const MOST: f64 = 3e-3;
+/// Tolerances that are used where none is programmed: the defaults of `PATH_DEV` and `TRACK_DEV`.
+const UNMONITORED: [f64; 2] = [0.2, 5.0];
+/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points.
+const CORNER_RAD: f64 = 0.35;
+const GRAIN_MM: f64 = 1e-3;
+
+/// Axes of the feed group, and the others.
+pub(super) type Groups = [Vec<usize>; 2];
+
+/// The groups of the axes of a block.
+pub(super) fn groups(block: &Block) -> Groups {
+    let axes = 0..block.path.start().len();
+    let (feed, others) = axes.partition(|i| is_feed(block, *i));
+    [feed, others]
+}
+
+/// Distance of two points over some axes.
+pub(super) fn apart(p: &[f64], q: &[f64], axes: &[usize]) -> f64 {
+    axes.iter().map(|i| (q[*i] - p[*i]) * (q[*i] - p[*i])).sum::<f64>().sqrt()
+}
+
+/// The tolerances of both groups.
+fn tolerances(settings: &SplineSettings) -> [f64; 2] {
+    let [path, track] = UNMONITORED;
+    let or = |dev: f64, default: f64| if dev > 0.0 { dev } else { default };
+    [or(settings.path_dev_mm, path), or(settings.track_dev_deg, track)]
+}
+
+/// Largest distance of a point from the curve for both groups, and of a point that is passed over from the one before.
+pub(super) fn rooms(settings: &SplineSettings) -> [f64; 2] {
+    tolerances(settings).map(|dev| MOST.min(SHARE * dev))
+}
+
+/// The settings with the smaller tolerances of two.
+pub(super) fn tighter(a: SplineSettings, b: &SplineSettings) -> SplineSettings {
+    let of = |x: f64, y: f64| if x > 0.0 && (x < y || y <= 0.0) { x } else { y };
+    SplineSettings {
+        path_dev_mm: of(a.path_dev_mm, b.path_dev_mm),
+        track_dev_deg: of(a.track_dev_deg, b.track_dev_deg),
+        ..*b
+    }
+}
+
+/// An edge between two kept points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Chord {
+    pub(super) settings: SplineSettings,
+    /// How far the programmed path between its ends is from it, in either group.
+    pub(super) off: [f64; 2],
+}
+
+impl Chord {
+    /// What the spline may deviate from the edge in either group.
+    pub(super) fn left(&self) -> [f64; 2] {
+        let dev = tolerances(&self.settings);
+        [dev[0] - self.off[0], dev[1] - self.off[1]]
+    }
+}
+
+/// A kept point.
+#[derive(Debug)]
+pub(super) struct Vertex {
+    pub(super) point: AxisVec,
+    /// Position on the polygon in mm.
+    pub(super) at: f64,
+    /// The edge that ends here; of no meaning at the first point of a run.
+    pub(super) chord: Chord,
+    /// Whether the point itself has to be a control point.
+    pub(super) stays: bool,
+}
+
+/// Points of a run with what their classification needs.
+pub(super) struct Row<'a> {
+    pub(super) vertices: &'a [Vertex],
+    pub(super) groups: &'a Groups,
+}
+
+impl Row<'_> {
+    /// Length of the edge after point `i`.
+    pub(super) fn length(&self, i: usize) -> f64 {
+        self.vertices[i + 1].at - self.vertices[i].at
+    }
+
+    pub(super) fn chord(&self, i: usize) -> &Chord {
+        &self.vertices[i + 1].chord
+    }
+
+    /// Whether the path turns at a point by more than noise could cause.
+    pub(super) fn is_corner(&self, i: usize) -> bool {
+        let [p, q, r] = [i - 1, i, i + 1].map(|k| &self.vertices[k].point);
+        let (h, k) = (self.length(i - 1), self.length(i));
+        let (mut jump2, mut sum2) = (0.0, 0.0);
+        for axis in &self.groups[0] {
+            let (u, w) = ((q[*axis] - p[*axis]) / h, (r[*axis] - q[*axis]) / k);
+            jump2 += (w - u) * (w - u);
+            sum2 += (w + u) * (w + u);
+        }
+        let angle = 2.0 * libm::atan2(f64::sqrt(jump2), f64::sqrt(sum2));
+        angle > CORNER_RAD + 2.0 * GRAIN_MM * (h.recip() + k.recip())
+    }
+
+    /// Largest distance of points of the edge after point `i` from the curve.
+    pub(super) fn room(&self, i: usize) -> [f64; 2] {
+        let settings = &self.chord(i).settings;
+        let [path, track] = rooms(settings);
+        // along the path the other axes follow the feed group
+        let (p, q) = (&self.vertices[i].point, &self.vertices[i + 1].point);
+        let fastest = self.groups[1].iter().map(|k| (q[*k] - p[*k]).abs()).fold(0.0, f64::max);
+        let follows = settings.track_dev_deg > 0.0 && fastest > 0.0;
+        let follow = if follows { track * self.length(i) / fastest } else { path };
+        [path.min(follow), track]
+    }
+}

@@ -1,0 +1,156 @@
+//! Chords of unequal length: the spline takes the time of the contour that they come from.
+
+use super::*;
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::path::{ArcPath, ArcShape};
+
+const RADIUS_MM: f64 = 10.0;
+const FEED_MM_S: f64 = 100.0;
+
+fn machine() -> Job {
+    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
+    let axis = AxisDynamics { a_max_mm_s2: 6000.0, feed, ..axis(1.0) };
+    Job { dynamics: channel(vec![axis; 2]), window: 1000, ..Job::new(1.0, Hsc) }
+}
+
+/// Points of a circle after these chords, rounded, without repetitions.
+fn circle_in(decimals: i32, count: usize, mut chord: impl FnMut(usize) -> f64) -> Vec<Vec<f64>> {
+    let scale = libm::pow(10.0, f64::from(decimals));
+    let mut angle = 0.0;
+    let mut points: Vec<Vec<f64>> = (0..count)
+        .map(|i| {
+            angle += if i > 0 { chord(i) / RADIUS_MM } else { 0.0 };
+            let (sin, cos) = libm::sincos(angle);
+            [cos, sin].map(|x| libm::round(RADIUS_MM * x * scale) / scale).to_vec()
+        })
+        .collect();
+    points.dedup();
+    points
+}
+
+/// Cycles of the arc from the first to the last of these points, which a G02 block would take.
+fn arc_cycles(job: &Job, points: &[Vec<f64>]) -> usize {
+    let angle = |w: &[Vec<f64>]| {
+        let cross = w[0][0] * w[1][1] - w[0][1] * w[1][0];
+        libm::atan2(cross, w[0][0] * w[1][0] + w[0][1] * w[1][1])
+    };
+    let sweep_rad: f64 = points.windows(2).map(angle).sum();
+    let [from, to] = [&points[0], &points[points.len() - 1]].map(|p| AxisVec::from_slice(p));
+    let shape = ArcShape { plane: [0, 1], centre_mm: [0.0, 0.0], sweep_rad };
+    let arc = ArcPath::new(from, to, shape, &[true, true]).unwrap();
+    let block = job.block(0, Path::Arc(arc), FEED_MM_S);
+    job.run(&points[0], std::iter::once(block)).len()
+}
+
+fn is_as_the_arc(points: &[Vec<f64>], path_dev_mm: f64, what: &str) {
+    let job = machine();
+    let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+    let blocks = splined(&job, settings, points, FEED_MM_S);
+    // every block has its own part; its end may move along the path by 1 um
+    for b in &blocks {
+        let edge = &points[b.seq as usize..b.seq as usize + 2];
+        let views: Vec<&[f64]> = edge.iter().map(|p| &p[..]).collect();
+        for k in 0..=8 {
+            let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 8.0, v));
+            let off = deviation(&q, &views);
+            assert!(off <= path_dev_mm + 1e-3, "{what} {path_dev_mm} block {}: {off}", b.seq);
+        }
+    }
+    let cycles = job.run(&points[0], blocks.into_iter()).len();
+    let want = arc_cycles(&job, points);
+    println!("{what}, PATH_DEV {path_dev_mm}: {cycles} of {want} cycles");
+    assert!(cycles <= want + 2 + want / 200, "{what} {path_dev_mm}: {cycles} of {want}");
+    assert!(cycles + 2 + want / 200 >= want, "{what} {path_dev_mm}: {cycles} of {want}");
+}
+
+#[test]
+fn random_chords_take_the_time_of_the_arc() {
+    for (low, high) in [(0.04, 0.06), (0.02, 0.1), (0.1, 0.3), (0.002, 0.1)] {
+        for decimals in [3, 5] {
+            let mut random = Random::from_state(17);
+            let count = (45.0 / (low + high)) as usize;
+            let points = circle_in(decimals, count, |_| random.between(low, high));
+            for path_dev_mm in [0.005, 0.01, 0.05] {
+                let what = format!("chords {low} to {high}, {decimals} decimals");
+                is_as_the_arc(&points, path_dev_mm, &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn alternating_chords_take_the_time_of_the_arc() {
+    for (short, long) in [(0.045, 0.055), (0.04, 0.06), (0.002, 0.1), (0.1, 0.2)] {
+        let count = (50.0 / (short + long)) as usize;
+        let points = circle_in(5, count, |i| if i % 2 == 0 { short } else { long });
+        is_as_the_arc(&points, 0.01, &format!("chords {short} and {long}"));
+    }
+}
+
+/// A second point 1 um beside every tenth one, in any direction: forwards, backwards, to both sides.
+#[test]
+fn doubled_points_take_the_time_of_the_arc() {
+    for direction in 0..8 {
+        let (sin, cos) = libm::sincos(f64::from(direction) * std::f64::consts::FRAC_PI_4);
+        let mut points = circle_in(5, 500, |_| 0.05);
+        for i in (5..495).step_by(10).rev() {
+            // along the circle and across it
+            let p = &points[i];
+            let [across, along] = [[p[0], p[1]], [-p[1], p[0]]].map(|u| u.map(|x| 1e-4 * x));
+            let near = (0..2).map(|k| p[k] + cos * along[k] + sin * across[k]).collect();
+            points.insert(i + 1, near);
+        }
+        is_as_the_arc(&points, 0.01, &format!("direction {direction}"));
+    }
+}
+
+/// A slot: behind an arc in short chords a long line, its middle straight.
+#[test]
+fn a_line_behind_an_arc_stays_straight() {
+    let job = machine();
+    let mut points = circle_in(4, 400, |_| 0.05);
+    let [p, q] = [&points[points.len() - 2], &points[points.len() - 1]].map(Clone::clone);
+    let end = [20.0, 0.0].map(|along| along / apart(&p, &q));
+    points.push(vec![q[0] + end[0] * (q[0] - p[0]), q[1] + end[0] * (q[1] - p[1])]);
+    let settings = SplineSettings { path_dev_mm: 0.01, ..SplineSettings::default() };
+    let (blocks, sharp) = splined_and_sharp(&job, settings, &points, FEED_MM_S);
+    assert!(sharp.is_empty());
+    let last = blocks.iter().filter(|b| b.seq as usize + 2 == points.len());
+    let line = &points[points.len() - 2..];
+    let views: Vec<&[f64]> = line.iter().map(|p| &p[..]).collect();
+    let (mut straight, mut worst, mut most) = (0.0, 0.0_f64, 0.0_f64);
+    for b in last {
+        let l = b.path.length();
+        for k in 0..=200 {
+            let at = l * f64::from(k) / 200.0;
+            let s = vector(&b.path, |p, v| p.position(at, v));
+            if apart(&s, &line[0]) > 6.0 {
+                worst = worst.max(deviation(&s, &views));
+                let bend = vector(&b.path, |p, v| p.curvature(at, v));
+                most = most.max(apart(&bend, &[0.0, 0.0]));
+                straight += l / 200.0;
+            }
+        }
+    }
+    assert!(straight > 13.0, "{straight}");
+    // the fit ends on the line, to what it smooths there
+    assert!(worst < 1e-5 && most < 1e-5, "{worst} mm, {most} 1/mm");
+    assert!(strays(&blocks, &points).0 <= 0.01);
+}
+
+/// A contour and its reverse take the same time.
+#[test]
+fn the_reverse_takes_the_same_time() {
+    let job = machine();
+    for seed in 0..6 {
+        let mut random = Random::from_state(seed);
+        let points = circle_in(3, 600, |_| random.between(0.01, 0.15));
+        let settings = SplineSettings { path_dev_mm: 0.01, ..SplineSettings::default() };
+        let time = |points: &[Vec<f64>]| {
+            let blocks = splined(&job, settings, points, FEED_MM_S);
+            job.run(&points[0], blocks.into_iter()).len()
+        };
+        let reversed: Vec<Vec<f64>> = points.iter().rev().cloned().collect();
+        assert!(time(&points).abs_diff(time(&reversed)) <= 2);
+    }
+}
