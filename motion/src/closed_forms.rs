@@ -13,7 +13,7 @@ pub(crate) fn add() {
 }
 
 /// Evaluations since the last call.
-fn take() -> u64 {
+pub(crate) fn take() -> u64 {
     COUNT.with(|c| c.replace(0))
 }
 

@@ -283,6 +283,29 @@ mod tests {
             .collect()
     }
 
+    /// Limits that grow from block to block are touched exactly, each with a few ramps followed to their end.
+    #[test]
+    fn a_rise_touches_growing_limits_in_few_steps() {
+        let cells: Vec<Cell> = (0..100_i32)
+            .map(|i| {
+                let (acc, ramps) = (3000.0 + f64::from(i % 7), [0.02; 4]);
+                let (end, v) = (0.3 * f64::from(i + 1), 80.0 + 0.1 * f64::from(i));
+                let rates = Rates { shape: RampShape::Trapez, acc, dec: acc, ramps };
+                Cell { end, v, cap: f64::INFINITY, rates }
+            })
+            .collect();
+        crate::closed_forms::take();
+        let rise = climb(&own(&cells), 80.0, 0.0).unwrap();
+        let per_block = crate::closed_forms::take() as f64 / cells.len() as f64;
+        for cell in &cells {
+            let inside =
+                rise.iter().filter(|p| p.s > cell.end - 0.3 - 1e-9 && p.s < cell.end - 1e-9);
+            let peak = inside.map(Phase::peak).fold(0.0, f64::max);
+            assert!((peak / cell.v - 1.0).abs() <= 2.0 * SLACK, "{peak} {cell:?}");
+        }
+        assert!(per_block <= 15.0, "{per_block}");
+    }
+
     /// Every phase is continuous and keeps velocity, acceleration and jerk of the blocks it lies in.
     #[test]
     fn a_ride_keeps_every_limit() {

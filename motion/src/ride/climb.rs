@@ -1,8 +1,9 @@
 //! The rise with constant jerk: its ramps begin and end exactly where the limits require, each block with its jerk.
 //!
 //! From a state the acceleration grows, or stays at its limit, as long as the ramp down to zero after it stays below
-//! every limit ahead. The last such moment is found by bisection; from there the ramp down is followed to the limit
-//! that it touches, where the next rise starts.
+//! every limit ahead. The last such moment is found by bisection, in whose steps the ramp is only followed where the
+//! outcome is not known ([`Climb::around`]); from there the ramp down is followed to the limit that it touches, where the
+//! next rise starts.
 
 use super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
@@ -13,6 +14,12 @@ const MOST_PHASES: [usize; 2] = [12, 20_000];
 const ROUNDS: u32 = 40;
 /// Duration in s below which a phase is dropped as rounding.
 const WORTH_S: f64 = 1e-7;
+
+/// Steps to the moment at which a ramp reaches the velocity of a block, and the step in s below which it is found.
+const STEPS: u32 = 8;
+const FOUND_S: f64 = 1e-13;
+/// Distance in s from that moment at which the outcome is tested.
+const ASIDE_S: f64 = 1e-12;
 
 /// Number of phases of the rise that are searched backwards for a point from which a limit can be passed.
 const MOST_BACK: usize = 64;
@@ -207,14 +214,21 @@ impl Climb<'_> {
     /// touches.
     fn bend(&mut self, phase: &Phase, mut touch: Touch, v_ref: f64) -> Option<()> {
         let (mut low, mut high) = (0.0, phase.t);
+        let (within, beyond) = self.around(phase, touch, v_ref);
         for _ in 0..ROUNDS {
             if high - low <= 1e-3 * WORTH_S {
                 break;
             }
             let mid = 0.5 * (low + high);
-            match self.lands(self.c, phase.after(mid), v_ref) {
-                Ok(()) => low = mid,
-                Err(other) => (high, touch) = (mid, other),
+            if mid <= within {
+                low = mid;
+            } else if mid >= beyond {
+                high = mid;
+            } else {
+                match self.lands(self.c, phase.after(mid), v_ref) {
+                    Ok(()) => low = mid,
+                    Err(other) => (high, touch) = (mid, other),
+                }
             }
         }
         if low > WORTH_S {
@@ -258,6 +272,64 @@ impl Climb<'_> {
             self.take(flat, true);
         }
         Some(())
+    }
+
+    /// Two close moments of a phase, after whose end `touch` is exceeded: with a ramp down to zero from the first one all
+    /// limits are kept, from the second one the velocity inside a block is exceeded. Without such moments the whole of
+    /// the time axis.
+    fn around(&self, phase: &Phase, touch: Touch, v_ref: f64) -> (f64, f64) {
+        let unknown = (0.0, f64::INFINITY);
+        if touch != Touch::Inside {
+            return unknown;
+        }
+        let Some(t) = self.reaches(phase) else { return unknown };
+        let (within, beyond) = (t - ASIDE_S, t + ASIDE_S);
+        let lands = |t| self.lands(self.c, phase.after(t), v_ref);
+        let is_between = within > 0.0
+            && beyond < phase.t
+            && lands(within).is_ok()
+            && lands(beyond) == Err(Touch::Inside);
+        if is_between { (within, beyond) } else { unknown }
+    }
+
+    /// The moment of a phase from which a ramp down to zero ends at the velocity of the block in which it ends.
+    fn reaches(&self, phase: &Phase) -> Option<f64> {
+        let mut t = phase.t;
+        for _ in 0..STEPS {
+            let from = phase.after(t);
+            let (cell, v) = self.landing(&from)?;
+            // gain of speed over this moment and the ramp, as if the whole ramp had the jerk of this block
+            let excess = v - cell.v * (1.0 + SLACK);
+            let next = if phase.j > 0.0 {
+                let per_square = 0.5 / phase.j + 0.5 / cell.jerks[1];
+                let a = (from.a * from.a - excess / per_square).max(0.0).sqrt();
+                (a - phase.a) / phase.j
+            } else {
+                t - excess / from.a
+            };
+            let step = (next - t).abs();
+            t = next.clamp(0.0, phase.t);
+            if step <= FOUND_S {
+                return Some(t);
+            }
+        }
+        None
+    }
+
+    /// Block and speed in which a ramp down to zero from a state ends.
+    fn landing(&self, from: &Phase) -> Option<(&Block, f64)> {
+        #[cfg(test)]
+        crate::closed_forms::add();
+        let mut at = *from;
+        for c in self.c.. {
+            let cell = self.cells.get(c)?;
+            let (_, flat) = self.ramp_in(c, &at);
+            if flat.s < cell.end {
+                return Some((cell, flat.v));
+            }
+            at = flat;
+        }
+        None
     }
 
     /// The limit touched by a ramp down to zero that begins at the end of block `c`.
