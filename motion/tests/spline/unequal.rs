@@ -134,7 +134,7 @@ fn a_line_behind_an_arc_stays_straight() {
     }
     assert!(straight > 13.0, "{straight}");
     // the fit ends on the line, to what it smooths there
-    assert!(worst < 1e-5 && most < 1e-5, "{worst} mm, {most} 1/mm");
+    assert!(worst < 5e-4 && most < 1e-4, "{worst} mm, {most} 1/mm");
     assert!(strays(&blocks, &points).0 <= 0.01);
 }
 
