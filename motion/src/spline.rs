@@ -171,13 +171,13 @@ impl Splining {
 
     fn take(&mut self, out: Out, kernel_active: bool) {
         let mut edge = match out {
-            Out::Edge(edge) => edge,
+            Out::Edge(edge) => *edge,
             Out::End => {
                 self.end_run(kernel_active);
                 return;
             }
             Out::Block(block) => {
-                self.ready.push(block);
+                self.ready.push(*block);
                 return;
             }
         };

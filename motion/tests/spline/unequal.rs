@@ -58,7 +58,6 @@ fn is_as_the_arc(points: &[Vec<f64>], path_dev_mm: f64, what: &str) {
     }
     let cycles = job.run(&points[0], blocks.into_iter()).len();
     let want = arc_cycles(&job, points);
-    println!("{what}, PATH_DEV {path_dev_mm}: {cycles} of {want} cycles");
     assert!(cycles <= want + 2 + want / 200, "{what} {path_dev_mm}: {cycles} of {want}");
     assert!(cycles + 2 + want / 200 >= want, "{what} {path_dev_mm}: {cycles} of {want}");
 }
