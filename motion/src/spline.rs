@@ -1,10 +1,15 @@
 //! B-spline through runs of short linear blocks (`#HSC ON [BSPLINE]`): a stage between program and planner.
 //!
-//! The programmed points, after removal of rounding noise ([`fairing`]), are the control points of a cubic B-spline
-//! with knots at their distances along the polygon (source: TF5200, extended HSC programming, control points;
-//! Assumption: degree and knots). In Bezier form the piece of an edge has both inner points on that edge, and its ends
-//! are on the lines that cut the corners. Every piece therefore belongs to one block, and is never further from its
-//! edge than its ends are: the deviation of the whole spline follows from the corners alone.
+//! The path is a cubic B-spline with one knot per control point (source: TF5200, extended HSC programming, control points;
+//! Assumption: degree and knots). Where chords follow a contour, the control points are fitted to the programmed points
+//! over evened knots ([`fairing`]): rounding and chords of unequal length do not show, and each block is the part of
+//! the curve over its own stretch of the polygon. The deviation is certified edge by edge.
+//!
+//! Elsewhere, at corners and next to edges whose sagitta exceeds the tolerance, the programmed points are the control
+//! points, with knots at their distances along the polygon. In Bezier form the piece of an edge has both inner points on
+//! that edge, and its ends are on the lines that cut the corners: it is never further from its edge than its ends are,
+//! and the deviation follows from the corners alone. Between a fit and such an edge is a corner with control points of
+//! its own; on the side of the fit they are inserted as knots, which leaves the fit unchanged.
 //!
 //! On edges of equal length the deviation is a sixth of an edge times the change of direction: `h^2 / (6 r)` where the
 //! polygon follows an arc of radius `r`. A corner with more deviation is pulled back. If the tolerance is only slightly
@@ -24,9 +29,9 @@
 //! path speed has a ripple. A corner just short of a reversal stays a corner, as in contouring. So does a corner that
 //! is passed faster without the spline ([`worth`]): neither a larger tolerance nor more corners cost time.
 //!
-//! `PATH_DEV` and `TRACK_DEV` limit the total: the part that fairing uses is not available at the corners.
+//! `PATH_DEV` and `TRACK_DEV` limit the total: what a fit uses next to a corner is not available there.
 //!
-//! An edge becomes several blocks with the number of the programmed one if its parts permit different speeds.
+//! A block becomes several ones with its number if its parts permit different speeds or belong to several polynomials.
 //!
 //! Order of calls, as for [`crate::contouring`]: [`Splining::push`] block by block, [`Splining::flush`] where the path
 //! stops.
@@ -166,13 +171,13 @@ impl Splining {
 
     fn take(&mut self, out: Out, kernel_active: bool) {
         let mut edge = match out {
-            Out::Edge(edge) => edge,
+            Out::Edge(edge) => *edge,
             Out::End => {
                 self.end_run(kernel_active);
                 return;
             }
             Out::Block(block) => {
-                self.ready.push(block);
+                self.ready.push(*block);
                 return;
             }
         };

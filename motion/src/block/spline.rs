@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplineSettings {
     /// `PATH_DEV` in mm, default 0.2: largest deviation from the polygon; 0 = not monitored. On chords `c` of an arc of
-    /// radius `r`, values below `c^2 / (6 r)` cost speed.
+    /// radius `r`, values below about `c^2 / (10 r)` cost speed.
     pub path_dev_mm: f64,
     /// `TRACK_DEV` in deg, default 5: largest deviation of the axes outside the feed group; 0 = not monitored.
     pub track_dev_deg: f64,

@@ -50,11 +50,11 @@ const NEAR_MM: f64 = 1e-3;
 #[derive(Debug)]
 pub(super) enum Out {
     /// A leg of the control polygon of the spline.
-    Edge(Edge),
+    Edge(Box<Edge>),
     /// The spline ends.
     End,
     /// A block outside of splines.
-    Block(Block),
+    Block(Box<Block>),
 }
 
 /// A block of the run with its stretch of the polygon.
@@ -103,7 +103,7 @@ impl Fairing {
     pub(super) fn push(&mut self, block: Block) -> std::vec::Drain<'_, Out> {
         if programmed(&block).is_none() {
             self.end_run();
-            self.ready.push(Out::Block(block));
+            self.ready.push(Out::Block(Box::new(block)));
         } else {
             self.take(block);
         }
@@ -241,7 +241,7 @@ impl Fairing {
         let Some(before) = self.vertices.last() else {
             // nothing but such blocks
             let passed = self.passed.drain(..).map(|p| p.block).chain([block]);
-            self.ready.extend(passed.map(Out::Block));
+            self.ready.extend(passed.map(Box::new).map(Out::Block));
             return;
         };
         let start = before.at;
@@ -347,9 +347,10 @@ impl Fairing {
         let near = NEAR_MM.min(NEAR * interval);
         let mut parts: SmallVec<[Part; 2]> = SmallVec::new();
         let mut at = from.knot;
-        while at < to.knot {
+        loop {
             let next = self.stretches.get(1).map(|next| next.until);
-            let Some(stretch) = self.stretches.front_mut() else { break };
+            let front = self.stretches.front_mut().filter(|_| at < to.knot);
+            let Some(stretch) = front else { break };
             let until = stretch.until;
             // a block that ends close to a knot ends there, unless the next one would vanish
             let is_near = (until - to.knot).abs() <= near;
@@ -369,7 +370,7 @@ impl Fairing {
         let of_last = self.last.as_ref().map_or([0.0; 2], |last| last.off);
         let off = std::array::from_fn(|k| of_last[k].max(from.off[k]));
         let settings = self.left(from, off);
-        self.ready.extend(Edge::new(from, to, parts, settings).map(Out::Edge));
+        self.ready.extend(Edge::new(from, to, parts, settings).map(Box::new).map(Out::Edge));
         self.last = Some(to.clone());
     }
 

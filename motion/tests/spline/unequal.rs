@@ -58,7 +58,6 @@ fn is_as_the_arc(points: &[Vec<f64>], path_dev_mm: f64, what: &str) {
     }
     let cycles = job.run(&points[0], blocks.into_iter()).len();
     let want = arc_cycles(&job, points);
-    println!("{what}, PATH_DEV {path_dev_mm}: {cycles} of {want} cycles");
     assert!(cycles <= want + 2 + want / 200, "{what} {path_dev_mm}: {cycles} of {want}");
     assert!(cycles + 2 + want / 200 >= want, "{what} {path_dev_mm}: {cycles} of {want}");
 }
@@ -134,7 +133,7 @@ fn a_line_behind_an_arc_stays_straight() {
     }
     assert!(straight > 13.0, "{straight}");
     // the fit ends on the line, to what it smooths there
-    assert!(worst < 1e-5 && most < 1e-5, "{worst} mm, {most} 1/mm");
+    assert!(worst < 5e-4 && most < 1e-4, "{worst} mm, {most} 1/mm");
     assert!(strays(&blocks, &points).0 <= 0.01);
 }
 

@@ -319,7 +319,7 @@ impl Built {
         let mut ends = [[0.0; 2]; 2];
         for (group, axes) in row.groups.iter().enumerate().filter(|(_, axes)| !axes.is_empty()) {
             let own = |axis: &usize| nodes.iter().map(|n| n.point[*axis]).collect();
-            let spline = Spline::new(&knots, axes.iter().map(own).collect());
+            let spline = Spline::new(&knots, &axes.iter().map(own).collect::<Vec<Vec<f64>>>());
             let points: Vec<&[f64]> =
                 axes.iter().map(|axis| &self.points[*axis][first..=last]).collect();
             let bounds = certificate::bounds(&spline, &at, &points);
@@ -458,17 +458,15 @@ fn data(row: &Row<'_>, stays: &[bool]) -> Vec<Datum> {
 fn virtual_points(length: f64, shorter: [Option<f64>; 2]) -> Vec<(f64, Kind)> {
     let both = shorter.iter().all(Option::is_some);
     let side = |beside: Option<f64>| {
-        let mut out = Vec::new();
-        let Some(beside) = beside else { return out };
-        let mut step = beside.max(SMALLEST_MM);
+        let Some(beside) = beside else { return Vec::new() };
+        let step = beside.max(SMALLEST_MM);
         let most = if both { 0.5 * length } else { length - 0.5 * step };
-        let mut x = step;
-        while x < most.min(ZONE_MM) {
-            out.push(x);
-            step = (GROWTH * step).min(LARGEST_MM);
-            x += step;
-        }
-        out
+        let next = |(x, step): &(f64, f64)| {
+            let step = (GROWTH * step).min(LARGEST_MM);
+            Some((x + step, step))
+        };
+        let points = std::iter::successors(Some((step, step)), next).map(|(x, _)| x);
+        points.take_while(|x| *x < most.min(ZONE_MM)).collect::<Vec<f64>>()
     };
     let [start, end] = shorter.map(side);
     let last = |x: &[f64]| x.last().copied().unwrap_or(0.0);

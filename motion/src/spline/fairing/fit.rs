@@ -108,7 +108,7 @@ pub(super) fn control_points(
     room: &[f64],
 ) -> Vec<Vec<f64>> {
     let n = at.len() - 1;
-    let frame = Spline::new(knots, Vec::new());
+    let frame = Spline::new(knots, &[]);
     let mut interval = 0;
     let points: Vec<Equation> = (1..n)
         .map(|i| {
@@ -194,7 +194,7 @@ fn moved_inwards(knots: &[f64], at: &[f64], mut points: Vec<Vec<f64>>) -> Vec<Ve
     };
     let mut chords: Vec<f64> = (0..=n).map(longest).collect();
     evened(&mut chords);
-    let spline = Spline::new(knots, points.clone());
+    let spline = Spline::new(knots, &points);
     for (axis, points) in points.iter_mut().enumerate() {
         for j in 1..n {
             points[j] += INWARDS * chords[j] * chords[j] * spline.second(axis, j);

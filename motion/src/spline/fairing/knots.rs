@@ -31,7 +31,7 @@ pub(super) struct Spline {
 
 impl Spline {
     /// Through control points by axis; at least three.
-    pub(super) fn new(knots: &[f64], points: Vec<Vec<f64>>) -> Self {
+    pub(super) fn new(knots: &[f64], points: &[Vec<f64>]) -> Self {
         let ends = |t: &[f64], count: usize| {
             let last = t.len() - 1;
             let before = (1..=count).rev().map(|k| 2.0 * t[0] - t[k]);

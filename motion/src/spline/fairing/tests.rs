@@ -38,7 +38,7 @@ fn legs(blocks: Vec<Block>) -> Vec<Edge> {
     let mut out = Vec::new();
     let mut keep = |o: Out| {
         if let Out::Edge(edge) = o {
-            out.push(edge);
+            out.push(*edge);
         }
     };
     for block in blocks {
@@ -58,12 +58,8 @@ fn rounded(points: &Points, decimals: i32) -> Points {
 /// Points of a curve with this arc length, in random chords around `chord`.
 fn sampled(seed: u64, chord: f64, whole: f64, curve: impl Fn(f64) -> Vec<f64>) -> Points {
     let mut random = Random::from_state(seed);
-    let (mut out, mut s) = (vec![curve(0.0)], 0.0);
-    while s < whole {
-        s += chord * random.between(0.5, 1.5);
-        out.push(curve(s));
-    }
-    out
+    let next = |s: &f64| Some(s + chord * random.between(0.5, 1.5));
+    std::iter::successors(Some(0.0), next).take_while(|s| *s < whole).map(curve).collect()
 }
 
 fn circle(r: f64) -> impl Fn(f64) -> Vec<f64> {
@@ -139,7 +135,7 @@ fn the_basis_reproduces_a_cubic() {
             _ => blossom(knots[j - 1], knots[j], knots[j + 1]),
         })
         .collect();
-    let spline = Spline::new(&knots, vec![points]);
+    let spline = Spline::new(&knots, &[points]);
     for j in 2..n - 2 {
         for u in [0.0, 0.3, 0.9] {
             let x = knots[j] + u * (knots[j + 1] - knots[j]);
@@ -170,7 +166,7 @@ fn the_certificate_is_a_bound() {
             let nodes = &out.nodes[chain.start..=chain.end];
             let knots: Vec<f64> = nodes.iter().map(|n| n.knot).collect();
             let of_axis = |axis: usize| nodes.iter().map(|n| n.point[axis]).collect();
-            let spline = Spline::new(&knots, (0..3).map(of_axis).collect());
+            let spline = Spline::new(&knots, &(0..3).map(of_axis).collect::<Vec<Vec<f64>>>());
             let (a, b) = (nodes[0].place.0, nodes[nodes.len() - 1].place.0);
             let at: Vec<f64> = vertices[a..=b].iter().map(|v| v.at).collect();
             let by_axis: Vec<Vec<f64>> =
@@ -218,7 +214,7 @@ fn windows_change_nothing() {
             stage.end_run();
             for out in stage.ready.drain(..) {
                 if let Out::Edge(edge) = out {
-                    whole.push(edge);
+                    whole.push(*edge);
                 }
             }
             let windows = legs(blocks(&points, 2, settings));
@@ -300,7 +296,7 @@ fn rounding_goes() {
         for edge in legs {
             knots.push(knots[knots.len() - 1] + edge.interval);
         }
-        let frame = Spline::new(&knots, Vec::new());
+        let frame = Spline::new(&knots, &[]);
         let of = |j: usize| {
             let factors = frame.third_factors(j);
             let third = |axis: usize| {
