@@ -4,7 +4,8 @@
 //! which both are cut. The rise is left before the crossing: from there the acceleration falls with the jerk of the
 //! blocks until velocity and acceleration are those of the fall. The later the rise is left, the closer this connection
 //! gets to the fall; the last possible moment is found by bisection. A fall within the limits brakes harder than such a
-//! connection everywhere, so the connection is within the limits too.
+//! connection everywhere, so the connection is within the limits too. Where both hold the same speed, at a limit, there
+//! is nothing to connect.
 
 use super::Block;
 use crate::profile::FLAT_MM_S2;
@@ -13,6 +14,8 @@ use crate::profile::{Phase, RampShape};
 
 /// Relative difference of speeds that counts as rounding.
 const SAME: f64 = 1e-8;
+/// Relative difference of two speeds that hold the same limit.
+const EQUAL: f64 = 1e-12;
 /// Relative gap that a connection may leave where it meets the fall.
 const MISS: f64 = 1e-7;
 /// Speed in mm/s that is used as the reference of a gap below it: where the fall comes to rest its speed may be
@@ -135,6 +138,14 @@ impl Meet<'_> {
         let left = out[k];
         let (mut low, mut high) = (0.0, left.t);
         let mut best = self.way(&left)?;
+        let meets_at_once = best.phases.iter().all(|p| p.t == 0.0);
+        if let Some(joint) = best.joint.filter(|j| meets_at_once && j.gap.abs() <= EQUAL)
+            && holds(&left)
+            && holds(&self.fall[joint.phase])
+        {
+            out.truncate(k);
+            return Some(joint);
+        }
         for _ in 0..ROUNDS {
             let mid = 0.5 * (low + high);
             match self.way(&left.after(mid)) {
@@ -241,4 +252,9 @@ impl Meet<'_> {
         let (_, t) = enclosed_root((0.0, start.closing), (piece.t, end.closing), MOMENT, closing);
         Some((t, self.compare(piece, t, f).joint))
     }
+}
+
+/// Whether a phase holds its speed.
+fn holds(phase: &Phase) -> bool {
+    phase.a == 0.0 && phase.j == 0.0
 }
