@@ -67,7 +67,7 @@ const AROUND: [(&str, &str, &str); 24] = [
 ];
 
 /// Examples for other machines than the built-in one or with files, and their errors here.
-const NEEDS_MORE: [(&str, &[&str]); 11] = [
+const NEEDS_MORE: [(&str, &[&str]); 12] = [
     ("#AX LINK", &["K-0137"]),
     ("#ENABLE AX LINK", &["K-0137"]),
     ("#ERROR", &["455"]),
@@ -78,6 +78,7 @@ const NEEDS_MORE: [(&str, &[&str]); 11] = [
     ("@P1, @P", &["K-0013"]),
     ("G112", &["3210"]),
     ("G80, G81, G82, G83, G84, G85, G86, G87, G88, G89", &["20131"]),
+    ("G800 .. G839", &["20131"]),
     ("G96, G97", &["20634"]),
 ];
 

@@ -157,16 +157,16 @@ fn whole_programs_are_close_to_the_bound() {
     let mut missed = Vec::new();
     for name in ["surface_scan", "freeform_pocket", "spiral_face"] {
         let hsc = std::fs::read_to_string(programs().join(format!("{name}.nc"))).unwrap();
-        let [trapez, sin2] = ["TRAPEZ", "SIN2"]
-            .map(|kind| hsc.replace("[TYPE=HSC]", &format!("[TYPE={kind} NO_OPT=0]")));
+        let [trapez, sin2] =
+            ["TRAPEZ", "SIN2"].map(|kind| hsc.replace("[TYPE=HSC]", &format!("[TYPE={kind}]")));
         assert!(hsc != trapez && hsc != sin2);
         let (feed, points) = geometry(&hsc);
         let least = bound(&points, feed);
         for (slope, program, ramp_us, allowed) in [
             ("HSC", &hsc, RAMPS_US[0], 0.05),
             ("HSC", &hsc, RAMPS_US[1], 0.02),
-            ("TRAPEZ, NO_OPT=0", &trapez, RAMPS_US[0], 0.1),
-            ("SIN2, NO_OPT=0", &sin2, RAMPS_US[1], 0.02),
+            ("TRAPEZ", &trapez, RAMPS_US[0], 0.1),
+            ("SIN2", &sin2, RAMPS_US[1], 0.02),
         ] {
             let time = machine_time(program, ramp_us);
             let more = time / least - 1.0;

@@ -183,10 +183,17 @@ fn of_row(row: &commands::Row) -> Explanation {
     )
 }
 
+/// Largest number of names that a title lists.
+const MOST_IN_TITLE: usize = 20;
+
 impl Command {
     fn explained(&self) -> Explanation {
+        let title = match self.names {
+            [first, .., last] if self.names.len() > MOST_IN_TITLE => format!("{first} .. {last}"),
+            names => names.join(", "),
+        };
         explained(
-            self.names.join(", "),
+            title,
             [self.syntax, self.meaning, self.note, self.example],
             self.keys.to_owned(),
             self.related,

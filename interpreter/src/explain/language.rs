@@ -49,7 +49,7 @@ pub(super) const LANGUAGE: &[Command] = &[
     row(&["#CS DEF", "#CS ON", "#CS OFF"], "#CS DEF [n] [x, y, z, a, b, c]   #CS ON [n]   #CS ON [x, y, z, a, b, c]   #CS OFF [ALL]", "defines a coordinate system, activates it, and deactivates it", "three shifts in mm (G70: inch) and three angles in deg", "up to five systems are stored", "#CS ON [50, 50, 0]", &["#CS ADD", "#MCS", "G54"]),
     row(&["#FGROUP"], "#FGROUP [X, Y, Z]", "axes along which F applies", "", "", "#FGROUP [X, Y]", &["F", "P-CHAN-00011"]),
     row(&["#VAR", "#ENDVAR", "#DELETE"], "#VAR .. V.P.NAME = 0 .. #ENDVAR   #DELETE V.P.NAME", "declares variables, deletes them", "", "the same name twice: 20909", "#DELETE V.P.NAME", &["V.P", "20909"]),
-    row(&["#ADD"], "X.. Y.. #ADD [\"text\", values]   #ADD HMI [\"text\"]", "message at the end of its block, output after what the block does", "", "the last word of the block (21509)", "X10 #ADD [\"edge %d\", P1]", &["#MSG", "21509"]),
+    row(&["#ADD"], "X.. Y.. #ADD [\"text\", values]   #ADD HMI [\"text\"]", "message at the end of its block, output after what the block does", "", "the last word of the block (21509)", "X10 F1000 #ADD [\"edge\"]", &["#MSG", "21509"]),
     row(&["#COMMENT"], "#COMMENT BEGIN .. #COMMENT END", "the lines in between are comments", "", "", "#COMMENT BEGIN", &["K-0101"]),
     row(&["#FILE NAME"], "#FILE NAME [M6=\"file\"]", "names the subroutine called by M06, D or a G8x function", "", "", "#FILE NAME [M6=\"CHANGE\"]", &["M06", "G80"]),
     row(&["$IF", "$ELSEIF", "$ELSE", "$ENDIF"], "$IF condition .. $ELSEIF condition .. $ELSE .. $ENDIF", "branches", "", "", "$IF V.L.N == 1", &["$SWITCH"]),

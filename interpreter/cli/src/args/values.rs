@@ -63,12 +63,17 @@ pub(super) fn whole<T: TryFrom<u64>>(
     move |text| {
         let number = text.trim().parse().ok().filter(|n| (least..=most).contains(n));
         number.and_then(|n| T::try_from(n).ok()).ok_or_else(|| match most {
-            u64::MAX if !text.trim().bytes().all(|b| b.is_ascii_digit()) => {
+            u64::MAX if !is_too_large(text.trim()) => {
                 format!("a whole number from {least} is expected")
             }
             _ => format!("a whole number from {least} to {most} is expected"),
         })
     }
+}
+
+/// A whole number beyond the largest one.
+fn is_too_large(text: &str) -> bool {
+    text.bytes().all(|b| b.is_ascii_digit()) && text.parse::<u64>().is_err()
 }
 
 pub(super) fn above_zero(text: &str) -> Result<f64, String> {
