@@ -18,7 +18,7 @@ use crate::exec::report::{Report, Subject};
 use crate::machine::table::tool;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{Block, Feed, SlopeKind};
+use kontur_motion::block::{Block, Feed, SlopeKind, SplineSettings};
 use kontur_motion::path::{LinePath, Path};
 
 impl Modal {
@@ -69,6 +69,20 @@ impl MotionState {
 }
 
 impl Decoder {
+    /// Tolerances of the active B-spline, which has one for the feed group and one for all other axes.
+    ///
+    /// PATH_DEV belongs to the main axes and TRACK_DEV to the others (207308683); with another feed group (P-CHAN-00240 = 1)
+    /// both groups keep the smaller one.
+    pub(super) fn spline_settings(&self) -> Option<SplineSettings> {
+        let spline = self.contour.hsc.spline()?;
+        if self.motion.feeds_main_axes(&self.geometry.coordinates) {
+            return Some(spline);
+        }
+        let limits = [spline.path_dev_mm, spline.track_dev_deg].into_iter().filter(|dev| *dev > 0.0);
+        let least = limits.reduce(f64::min).unwrap_or(0.0);
+        Some(SplineSettings { path_dev_mm: least, track_dev_deg: least, ..spline })
+    }
+
     /// The ramp times of motions in coordinate systems are the longest ones of the main axes (P-CHAN-00758).
     pub(super) fn update_ramps(&mut self) {
         let coordinates = &self.geometry.coordinates;
@@ -101,7 +115,7 @@ impl Decoder {
         let late_braking = self.modal.brakes_late(early_once, span, &mut self.report);
         self.group_fits_corner(rounds, span)?;
         let course = self.feed_course(words, &path, feed, rounds, span)?;
-        let hsc = (self.contour.hsc.contour(), self.contour.hsc.spline());
+        let hsc = (self.contour.hsc.contour(), self.spline_settings());
         let shaped = rounds || hsc.0.is_some() || hsc.1.is_some() || self.contour.akima.selected;
         self.motion.areas.fit(shaped, &self.names, span)?;
         let in_plane = self.in_plane(span)?;

@@ -247,7 +247,7 @@ impl Decoder {
             dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: self.contour.hsc.contour(),
-            spline: self.contour.hsc.spline(),
+            spline: self.spline_settings(),
             plane,
             offsets: self.geometry.coordinates.active_offsets(),
         }))
