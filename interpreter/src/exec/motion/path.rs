@@ -78,7 +78,8 @@ impl Decoder {
         if self.motion.feeds_main_axes(&self.geometry.coordinates) {
             return Some(spline);
         }
-        let limits = [spline.path_dev_mm, spline.track_dev_deg].into_iter().filter(|dev| *dev > 0.0);
+        let limits =
+            [spline.path_dev_mm, spline.track_dev_deg].into_iter().filter(|dev| *dev > 0.0);
         let least = limits.reduce(f64::min).unwrap_or(0.0);
         Some(SplineSettings { path_dev_mm: least, track_dev_deg: least, ..spline })
     }
