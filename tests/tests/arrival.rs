@@ -90,6 +90,18 @@ fn both_sides_of_a_gantry() {
     }
 }
 
+/// The speed of a gantry slave is monitored neither as a set position (50118, 285764875) nor in its controller (70382, 117763467):
+/// at 300 mm/s both would be exceeded by more than the 9 and 1 % that its list permits.
+#[test]
+fn speed_of_a_gantry_slave() {
+    for (v_um_s, monitors) in [(100_000, ""), (290_000, "; X2.lr_param.dyn_monitoring_v_err=10")] {
+        let limits = format!("X2.getriebe[0]: dynamik.vb_max={v_um_s}, vb_eilgang=100000");
+        let machine = sample_machine("gantry", format!("{limits}{monitors}").as_str());
+        let run = run_on(machine, "%P\nG90\nG01 X100 F18000\nM30\n");
+        assert_eq!(run.ids(), [0; 0], "{:?}", run.diagnostics);
+    }
+}
+
 /// Largest magnitude of the speed of the spindle in rev/min.
 fn most_rpm(run: &Run) -> f64 {
     run.axis(3, |a| a.vel / 6.0).iter().fold(0.0, |most: f64, v| most.max(v.abs()))

@@ -68,7 +68,8 @@ pub(super) struct Built {
 /// The control points of all points of a row.
 pub(super) fn built(row: &Row<'_>) -> Built {
     let mut stays: Vec<bool> = row.vertices.iter().map(|v| v.stays).collect();
-    for round in 0.. {
+    let mut round = 0;
+    loop {
         let mut out = Built::new(row, &stays);
         let ranges = out.chains();
         let mut failures = Vec::new();
@@ -90,8 +91,8 @@ pub(super) fn built(row: &Row<'_>) -> Built {
         for range in failures {
             stays[range].fill(true);
         }
+        round += 1;
     }
-    Built::new(row, &vec![true; stays.len()])
 }
 
 impl Built {
@@ -188,7 +189,7 @@ impl Built {
     fn mirror_behind(&mut self) {
         let n = self.nodes.len() - 1;
         for back in 1..=2 {
-            let (knot, point) = self.mirrored(n, n - back);
+            let (knot, point) = mirrored(&self.nodes[n], &self.nodes[n - back]);
             self.push_node(knot, point, self.nodes[n].place.0, false, false);
         }
     }
@@ -207,10 +208,6 @@ impl Built {
             }
             self.nodes.push(node.clone());
         }
-    }
-
-    fn mirrored(&self, center: usize, node: usize) -> (f64, AxisVec) {
-        mirrored(&self.nodes[center], &self.nodes[node])
     }
 
     /// The control points between two corners, for every two corners with a fit between them.

@@ -26,8 +26,8 @@ impl Path<'_> {
         Ok(Value::Number(f(d, axis) / d.modal.axis_unit(&d.machine.axes[axis])))
     }
 
-    /// A coordinate of the program, of a modulo axis within its range. Refused for a scaled axis, because the documents do not specify whether it is the
-    /// coordinate before or after scaling.
+    /// A coordinate of the program, of a modulo axis within its range. Refused for a scaled axis, because the documents do not
+    /// specify whether it is the coordinate before or after scaling.
     pub(super) fn coordinate(
         &self,
         d: &Decoder,
