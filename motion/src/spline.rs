@@ -58,6 +58,7 @@
 
 mod edge;
 mod fairing;
+mod limits;
 mod node;
 mod pace;
 mod polygon;
@@ -65,10 +66,11 @@ mod worth;
 
 use crate::block::{Block, Feed};
 use crate::contouring::{NoContour, Notice};
-use crate::path::{Path, PolyPath, piece};
+use crate::path::piece;
 use edge::{Corner, Curve, Edge, Part, reach};
 use fairing::{Fairing, Out};
 use kontur_filters::time::CycleTime;
+use limits::Stretch;
 use polygon::ControlPolygon;
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -114,6 +116,8 @@ pub struct Splining {
     from_start: bool,
     /// Whether the last edge in the buffer is the last of the run.
     to_end: bool,
+    /// The last part of the spline, if its end is not settled.
+    held: Option<Stretch>,
     ready: Vec<Block>,
     notices: Vec<Notice>,
 }
@@ -131,6 +135,7 @@ impl Splining {
             done: 0,
             from_start: false,
             to_end: false,
+            held: None,
             ready: Vec::new(),
             notices: Vec::new(),
         }
@@ -298,24 +303,20 @@ impl Splining {
         if span != whole {
             curves = self.curves(edge, &span);
         }
-        let Edge { block: leg, parts, .. } = &self.run[edge];
+        let leg = &self.run[edge];
         if curves.is_empty() {
-            self.ready.extend(straight(leg, parts));
-        }
-        let mut curves = curves.into_iter().peekable();
-        while let Some(curve) = curves.next() {
-            let whole = &parts[curve.part];
-            let mut part = whole.block.clone();
-            if let Feed::Duration(t) = part.feed {
-                let length = curve.path.length() / curve.of_part_mm;
-                part.feed = Feed::Duration(t * whole.share * length);
+            self.ready.extend(straight(&leg.block, &leg.parts));
+        } else {
+            let mut stretches = Stretch::over(leg.parts.iter().cloned(), curves);
+            if let Some(mut last) = self.held.take() {
+                let start = (&leg.block.path.start()[..], leg.length);
+                limits::settle(&mut last, &mut stretches, start, self.cycle);
+                last.put_out(&mut self.ready);
             }
-            let more = curves.peek().is_some_and(|next| next.part == curve.part);
-            if more || !whole.last {
-                (part.end_velocity_mm_s, part.contour) = (None, None);
+            if self.run.get(edge + 1).is_some_and(|next| next.corner.moves_limit()) {
+                self.held = stretches.pop();
             }
-            part.path = Path::Curve(Box::new(curve.path));
-            self.ready.push(part);
+            stretches.into_iter().for_each(|stretch| stretch.put_out(&mut self.ready));
         }
         self.done += 1;
         if self.done > BEHIND {
@@ -350,23 +351,11 @@ impl Splining {
         let stretches = polygon.stretches(ends);
         let mut out: Vec<Curve> = Vec::with_capacity(parts.len());
         for (k, (part, pieces)) in parts.iter().zip(stretches).enumerate() {
-            let first = out.len();
-            let mut groups = pace::groups(&part.block, pieces, self.cycle).into_iter();
-            while let Some((pieces, v_mm_s)) = groups.next() {
-                let here = match pieces.last() {
-                    Some(last) if groups.len() > 0 || k + 1 < parts.len() => {
-                        piece::point(last, 1.0)
-                    }
-                    _ => end.clone(),
-                };
-                let from = std::mem::replace(&mut start, here.clone());
-                let path = PolyPath::new(from, here, pieces, &block.dynamics.feed_axes);
-                out.extend(path.map(|path| Curve { path, v_mm_s, part: k, of_part_mm: 0.0 }));
-            }
-            let whole = out[first..].iter().map(|curve| curve.path.length()).sum();
-            for curve in &mut out[first..] {
-                curve.of_part_mm = whole;
-            }
+            let Some(last) = pieces.last() else { continue };
+            let here = if k + 1 < parts.len() { piece::point(last, 1.0) } else { end.clone() };
+            let from = std::mem::replace(&mut start, here.clone());
+            let curves = pace::curves(&part.block, pieces, [from, here], self.cycle);
+            out.extend(curves.into_iter().map(|curve| Curve { part: k, ..curve }));
         }
         out
     }

@@ -1,5 +1,6 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
+mod limits;
 mod ripple;
 mod unequal;
 

@@ -84,6 +84,36 @@ pub(crate) fn section(c: &Coefficients, from: f64, to: f64) -> Coefficients {
     out
 }
 
+/// Smallest share of a piece that becomes one of its own.
+const SLIVER: f64 = 1e-9;
+
+/// The pieces in parts that end at these places, given by piece and parameter in ascending order, and the remainder.
+pub(crate) fn divided(
+    pieces: impl IntoIterator<Item = PolyPiece>,
+    ends: impl IntoIterator<Item = (usize, f64)>,
+) -> Vec<Vec<PolyPiece>> {
+    let mut ends = ends.into_iter().peekable();
+    let (mut out, mut here) = (Vec::new(), Vec::new());
+    for (i, piece) in pieces.into_iter().enumerate() {
+        let part = |from: f64, to: f64| piece.iter().map(|c| section(c, from, to)).collect();
+        let mut passed = 0.0;
+        while let Some((_, end)) = ends.next_if(|(of, _)| *of == i) {
+            if end - passed > SLIVER {
+                here.push(part(passed, end));
+                passed = end;
+            }
+            out.push(std::mem::take(&mut here));
+        }
+        if passed == 0.0 {
+            here.push(piece);
+        } else if 1.0 - passed > SLIVER {
+            here.push(part(passed, 1.0));
+        }
+    }
+    out.push(here);
+    out
+}
+
 /// Position on a piece.
 pub(crate) fn point(piece: &PolyPiece, x: f64) -> AxisVec {
     piece.iter().map(|c| c.iter().rev().fold(0.0, |sum, c| sum * x + c)).collect()

@@ -246,8 +246,12 @@ impl PolyPath {
         &self.start
     }
 
-    pub(super) fn end(&self) -> &AxisVec {
+    pub(crate) fn end(&self) -> &AxisVec {
         &self.end
+    }
+
+    pub(crate) fn pieces(&self) -> &[PolyPiece] {
+        &self.pieces
     }
 
     /// Cell at `s`, the path length inside the cell, and the length of the cell.
@@ -260,7 +264,7 @@ impl PolyPath {
     }
 
     /// Piece and parameter at `s`.
-    fn locate(&self, s: f64) -> (usize, f64) {
+    pub(crate) fn locate(&self, s: f64) -> (usize, f64) {
         let (cell, want, whole) = self.cell_at(s);
         let (mut low, mut high) = (cell.from, cell.to);
         let mut x = low + (high - low) * if whole > 0.0 { want / whole } else { 0.0 };

@@ -27,7 +27,7 @@ pub(super) struct Edge {
 }
 
 /// The part of a block along a leg.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Part {
     /// The block as programmed.
     pub(super) block: Block,
@@ -45,9 +45,8 @@ pub(super) struct Curve {
     pub(super) path: PolyPath,
     /// Highest speed.
     pub(super) v_mm_s: f64,
-    /// The part of the edge that it belongs to, and the length in mm of all curves of that part.
+    /// The part of the edge that it belongs to.
     pub(super) part: usize,
-    pub(super) of_part_mm: f64,
 }
 
 /// The corner at the start of an edge inside a run.
@@ -94,6 +93,13 @@ impl Edge {
     pub(super) fn as_last(&self) -> Block {
         let last = self.parts.last().map_or(&self.block, |part| &part.block);
         Block { path: self.block.path.clone(), ..last.clone() }
+    }
+}
+
+impl Corner {
+    /// Whether the block before it ends elsewhere than at the knot ([`super::limits`]).
+    pub(super) fn moves_limit(&self) -> bool {
+        self.programmed && self.e.is_none() && self.sharp_since.is_none()
     }
 }
 

@@ -1,10 +1,12 @@
 //! Divides the spline over an edge where one part has to be much slower than another: a block has one velocity limit,
 //! and the sharpest bend would determine it for the whole edge.
 
+use super::edge::Curve;
+use crate::axis::AxisVec;
 use crate::block::{Block, Feed};
 use crate::cap::SpeedLimit;
 use crate::limits::{PathExtremes, PathSpeeds};
-use crate::path::piece::section;
+use crate::path::piece::{self, section};
 use crate::path::{Path, PolyPath, PolyPiece};
 use kontur_filters::time::CycleTime;
 
@@ -35,12 +37,27 @@ impl Part {
     }
 }
 
-/// The pieces of an edge in groups of nearly equal speed, each with its speed in mm/s.
-pub(super) fn groups(
+/// The curves of a part of an edge between two points, each with its speed: groups of pieces of nearly equal speed.
+pub(super) fn curves(
     block: &Block,
     pieces: Vec<PolyPiece>,
+    [mut start, end]: [AxisVec; 2],
     cycle: CycleTime,
-) -> Vec<(Vec<PolyPiece>, f64)> {
+) -> Vec<Curve> {
+    let mut groups = groups(block, pieces, cycle).into_iter();
+    let mut out = Vec::with_capacity(groups.len());
+    while let Some((pieces, v_mm_s)) = groups.next() {
+        let inner = pieces.last().filter(|_| groups.len() > 0);
+        let here = inner.map_or_else(|| end.clone(), |last| piece::point(last, 1.0));
+        let from = std::mem::replace(&mut start, here.clone());
+        let path = PolyPath::new(from, here, pieces, &block.dynamics.feed_axes);
+        out.extend(path.map(|path| Curve { path, v_mm_s, part: 0 }));
+    }
+    out
+}
+
+/// The pieces of an edge in groups of nearly equal speed, each with its speed in mm/s.
+fn groups(block: &Block, pieces: Vec<PolyPiece>, cycle: CycleTime) -> Vec<(Vec<PolyPiece>, f64)> {
     // a programmed duration means a constant speed over the whole edge
     let feed = match block.feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),

@@ -4,16 +4,13 @@ use super::Span;
 use super::edge::Edge;
 use crate::axis::AxisVec;
 use crate::path::PolyPiece;
-use crate::path::piece::section;
+use crate::path::piece::divided;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
 
 /// Largest number of subdivisions of the legs at a corner. Each reduces the deviation by at least a third, where less
 /// than a tenth of it has to remain.
 const DEEPEST: usize = 32;
-
-/// Smallest share of a polynomial that becomes one of its own.
-const SLIVER: f64 = 1e-9;
 
 /// A control point with its knot.
 #[derive(Clone, Debug)]
@@ -228,32 +225,21 @@ impl ControlPolygon {
     /// The polynomials of the edge for each of its parts; the ends of all but the last are shares of its knot interval.
     pub(super) fn stretches(&self, ends: impl Iterator<Item = f64>) -> Vec<Vec<PolyPiece>> {
         let (from, to) = (self.knot(self.first), self.knot(self.last));
-        let mut ends = ends.map(|share| from + share * (to - from)).peekable();
-        let (mut out, mut here) = (Vec::new(), Vec::new());
-        let mut start = self.joint(self.first);
-        for j in self.first..self.last {
-            let end = self.joint(j + 1);
-            let joint = std::mem::replace(&mut start, end);
-            let piece = self.piece(j, &joint, &start);
-            let part = |from: f64, to: f64| piece.iter().map(|c| section(c, from, to)).collect();
+        let mut joint = self.joint(self.first);
+        let pieces = (self.first..self.last).map(|j| {
+            let start = std::mem::replace(&mut joint, self.joint(j + 1));
+            self.piece(j, &start, &joint)
+        });
+        let mut j = self.first;
+        let ends = ends.map(|share| {
+            let end = from + share * (to - from);
+            while j + 1 < self.last && end > self.knot(j + 1) {
+                j += 1;
+            }
             let (before, behind) = (self.knot(j), self.knot(j + 1));
-            let mut passed = 0.0;
-            while let Some(end) = ends.next_if(|end| *end <= behind) {
-                let share = (end - before) / (behind - before);
-                if share - passed > SLIVER {
-                    here.push(part(passed, share));
-                    passed = share;
-                }
-                out.push(std::mem::take(&mut here));
-            }
-            if passed == 0.0 {
-                here.push(piece);
-            } else if 1.0 - passed > SLIVER {
-                here.push(part(passed, 1.0));
-            }
-        }
-        out.push(here);
-        out
+            (j - self.first, (end - before) / (behind - before))
+        });
+        divided(pieces, ends)
     }
 
     /// The polynomial between the points of the spline at knot `j` and the next one.

@@ -41,7 +41,7 @@ pub(super) fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
 }
 
 impl PolyPath {
-    pub(in crate::path) fn nearest(&self, point: &[f64]) -> f64 {
+    pub(crate) fn nearest(&self, point: &[f64]) -> f64 {
         let (cell, x) = self.search(point);
         let cell = &self.cells[cell];
         cell.s + self.gauss(cell.piece, cell.from, x)
