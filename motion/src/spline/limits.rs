@@ -5,7 +5,7 @@
 //! before a long one is most of the short edge; the feed rate, and everything else that changes with the block, would
 //! change there. The limit therefore moves along the spline, onto one of the edges next to it. Blocks whose points are
 //! passed over follow it with their lengths. Nothing else depends on it: the corners are judged ([`super::worth`]) with
-//! the limits at their knots.
+//! the limits at their knots, and a programmed duration is shared among the parts of its block with their lengths there.
 //!
 //! In a fit, at a corner with control points of its own and at a sharp one the limit is at its point in any case.
 

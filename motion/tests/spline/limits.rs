@@ -82,11 +82,6 @@ fn a_programmed_duration_is_kept() {
             let seconds = |b: &Block| if let Feed::Duration(t) = b.feed { t } else { f64::NAN };
             let (sum, expected) = (own.iter().map(seconds).sum::<f64>(), 1.0 + own[0].seq as f64);
             assert!((sum - expected).abs() < 1e-12, "{seed} {}: {sum}", own[0].seq);
-            // at one speed, apart from the difference between a fit and its chords
-            let speeds = own.iter().map(|b| b.path.length() / seconds(b));
-            let (low, high) =
-                speeds.fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(v), b.max(v)));
-            assert!(high <= low * 1.01, "{seed} {}: {low} to {high}", own[0].seq);
         }
     }
 }
