@@ -316,7 +316,9 @@ impl Splining {
             if self.run.get(edge + 1).is_some_and(|next| next.corner.moves_limit()) {
                 self.held = stretches.pop();
             }
-            stretches.into_iter().for_each(|stretch| stretch.put_out(&mut self.ready));
+            for stretch in stretches {
+                stretch.put_out(&mut self.ready);
+            }
         }
         self.done += 1;
         if self.done > BEHIND {

@@ -24,6 +24,9 @@ use std::sync::Arc;
 /// Assumption: the buffer of a channel is finite, too; a million messages in a loop must not exhaust memory.
 const EVENTS_MAX: usize = 1000;
 
+/// What is said of a block without certain words.
+const OF_MISSING_WORDS: [Condition; 2] = [Condition::FeedZero, Condition::AxisMissing];
+
 impl Executor {
     /// Executes one block.
     pub(super) fn advance(&mut self, actual_known: bool) {
@@ -403,11 +406,11 @@ impl Executor {
         for fault in faults {
             failed |= fault.is_error();
             let diagnostic = self.placed(fault);
-            let foreign = diagnostic.id == Condition::ForeignProgram.id();
-            // everything else may follow from the part of the block that could not be read
-            if faulty && !foreign {
+            // the part of the block that could not be read may contain what it lacks
+            if faulty && OF_MISSING_WORDS.iter().any(|missing| missing.id() == diagnostic.id) {
                 continue;
             }
+            let foreign = diagnostic.id == Condition::ForeignProgram.id();
             self.report(diagnostic);
             if foreign {
                 break;
