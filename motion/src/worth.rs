@@ -15,6 +15,9 @@ use kontur_filters::time::CycleTime;
 
 /// Relative rounding error allowed when times are compared.
 const SLACK: f64 = 1e-9;
+/// Share of a programmed feed rate at which a curve counts as limited by it: converted units, or feed rates that differ by
+/// rounding, do not decide whether a corner is rounded.
+const AT_FEED: f64 = 0.999;
 
 /// A part of a curve.
 #[derive(Clone, Copy, Debug)]
@@ -125,7 +128,7 @@ impl Passage<'_> {
         let slowest = slowest(parts);
         let sides = self.sides();
         // only the programmed feed rates limit the curve
-        if sides.iter().all(|side| slowest >= side.v_mm_s) {
+        if sides.iter().all(|side| slowest >= AT_FEED * side.v_mm_s) {
             return true;
         }
         let v = self.sharp_mm_s().min(sides[0].v_mm_s).min(sides[1].v_mm_s);

@@ -8,7 +8,7 @@ pub(crate) const MOST_SAMPLES: usize = 1 << 18;
 const PADDING: usize = 8;
 
 /// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 over the whole recording has the height
-/// 1; the mean of the windowed recording is removed first.
+/// 1; the straight line through the windowed recording is removed first.
 #[derive(Clone, Debug)]
 pub(crate) struct AmplitudeSpectrum {
     step_hz: f64,
@@ -21,12 +21,19 @@ impl AmplitudeSpectrum {
         let n = samples.len().max(1);
         let window =
             |i: usize| 0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64);
-        // weighted by the window, so that incomplete waves leave no offset
-        let mean =
-            samples.iter().enumerate().map(|(i, x)| x * window(i)).sum::<f64>() / (0.5 * n as f64);
+        // offset and drift, weighted by the window, so that incomplete waves leave little of either
+        let place = |i: usize| (i as f64 + 0.5) / n as f64 - 0.5;
+        let weighted = |f: &dyn Fn(usize) -> f64| (0..n).map(|i| window(i) * f(i)).sum::<f64>();
+        let (sum, moment) = samples.iter().enumerate().fold((0.0, 0.0), |(sum, moment), (i, x)| {
+            (sum + x * window(i), moment + x * window(i) * place(i))
+        });
+        let mean = sum / weighted(&|_| 1.0);
+        // a single sample has no slope
+        let spread = weighted(&|i| place(i) * place(i));
+        let slope = if spread > 0.0 { moment / spread } else { 0.0 };
         let length = (PADDING * n).next_power_of_two();
-        let mut padded: Vec<f64> =
-            samples.iter().enumerate().map(|(i, x)| (x - mean) * window(i)).collect();
+        let left = |(i, x): (usize, &f64)| (x - mean - slope * place(i)) * window(i);
+        let mut padded: Vec<f64> = samples.iter().enumerate().map(left).collect();
         padded.resize(length, 0.0);
         let transform = RealFftPlanner::new().plan_fft_forward(length);
         let mut values = transform.make_output_vec();
@@ -38,11 +45,12 @@ impl AmplitudeSpectrum {
         Self { step_hz: 1.0 / (cycle_s * length as f64), amplitudes }
     }
 
-    /// Frequency in Hz and amplitude of every line between two frequencies.
+    /// Frequency in Hz and amplitude of every line between two frequencies, at least of one next to them.
     pub(crate) fn lines(&self, (low_hz, high_hz): (f64, f64)) -> impl Iterator<Item = [f64; 2]> {
         let line = |(i, a): (usize, &f64)| [i as f64 * self.step_hz, *a];
         let all = self.amplitudes.iter().enumerate().map(line);
-        all.skip_while(move |l| l[0] < low_hz).take_while(move |l| l[0] <= high_hz)
+        let half = 0.5 * self.step_hz;
+        all.skip_while(move |l| l[0] < low_hz - half).take_while(move |l| l[0] <= high_hz + half)
     }
 
     /// The highest line between two frequencies: frequency in Hz and amplitude.
@@ -70,5 +78,20 @@ mod tests {
         assert!(spectrum.peak((0.0, 5.0)).unwrap()[1] < 1e-3);
         assert!(spectrum.peak((200.0, 300.0)).unwrap()[1] < 1e-4);
         assert_eq!(spectrum.peak((600.0, 700.0)), None);
+        // a band between two lines
+        let [_, a] = spectrum.peak((53.1, 53.101)).unwrap();
+        assert!((a - 0.81).abs() < 5e-3, "{a}");
+    }
+
+    #[test]
+    fn drift_is_no_vibration() {
+        let sample = |k: u32| {
+            let t = 1e-3 * f64::from(k);
+            0.01 * libm::sin(std::f64::consts::TAU * 17.3 * t) + 3.0 + 7.0 * t
+        };
+        let spectrum = AmplitudeSpectrum::of(&(0..800).map(sample).collect::<Vec<_>>(), 1e-3);
+        let [f, a] = spectrum.peak((2.0, 100.0)).unwrap();
+        assert!((f - 17.3).abs() < 0.1 && (a - 0.01).abs() < 1e-4, "{f} {a}");
+        assert!(spectrum.peak((0.0, 12.0)).unwrap()[1] < 2e-4);
     }
 }

@@ -2,8 +2,10 @@
 //!
 //! The loop is linear and its input is constant. A settling distance decreases by at least the share `P / tau` in a
 //! period `P`. The slowest loop that a list can describe (kv = 0.01/s) has `tau` = 100 s, so a change of less than a
-//! thousandth means a standstill, unless the change increases: then a slow filter has only just begun to move. A
-//! decaying vibration loses more than a thousandth of its amplitude in one of ten periods.
+//! thousandth means a standstill, unless the change increases: then a slow filter has only just begun to move. A slow
+//! filter also passes its turning point slowly, with a change that decreases for a few periods; a change that is not zero
+//! is therefore observed for longer. A decaying vibration loses more than a thousandth of its amplitude in one of ten
+//! periods.
 
 use kontur_filters::time::CycleTime;
 
@@ -13,6 +15,11 @@ const PERIOD_S: (f64, f64) = (0.2, 1.0);
 const SWING_S: f64 = 1.0;
 /// Relative change in a period below which the distance counts as constant.
 const CHANGE: f64 = 1e-3;
+/// Relative change in a period that is rounding.
+const NOTHING: f64 = 1e-9;
+/// Number of periods with a small change after which it counts as a standstill: one second and a quarter before its turning
+/// point a filter of 0.01 Hz, the lowest of the list (P-AXIS-00067), changes by a thousandth in the shortest period.
+const STILL: u32 = 10;
 /// Number of periods without a smaller amplitude after which a vibration counts as permanent.
 const SWINGS: u32 = 10;
 
@@ -47,6 +54,7 @@ pub(super) struct Patience {
     still: Period,
     /// Way in the previous period.
     way_mm: f64,
+    stills: u32,
     swing: Period,
     /// Range in the previous period of the vibration.
     before_mm: (f64, f64),
@@ -57,7 +65,7 @@ impl Default for Patience {
     fn default() -> Self {
         let (still, swing) = (Period::EMPTY, Period::EMPTY);
         let before_mm = (f64::INFINITY, f64::NEG_INFINITY);
-        Self { still, way_mm: 0.0, swing, before_mm, swings: 0 }
+        Self { still, way_mm: 0.0, stills: 0, swing, before_mm, swings: 0 }
     }
 }
 
@@ -82,7 +90,9 @@ impl Patience {
         let still = self.still.add(distance_mm, length_s, cycle).is_some_and(|range| {
             let way_mm = range.1 - range.0;
             let before_mm = std::mem::replace(&mut self.way_mm, way_mm);
-            way_mm <= CHANGE * peak(range) && way_mm <= before_mm
+            let is_small = way_mm <= CHANGE * peak(range) && way_mm <= before_mm;
+            self.stills = if is_small { self.stills + 1 } else { 0 };
+            is_small && (way_mm <= NOTHING * peak(range) || self.stills >= STILL)
         });
         still || self.swings >= SWINGS
     }
@@ -116,6 +126,12 @@ mod tests {
         // with a damping down to 0.001
         assert_eq!(ends(Some(0.2), |t| 2.0 - libm::pow(t / 100.0, 3.0)), None);
         assert_eq!(ends(Some(0.2), |t| 2.0 * libm::exp(-t / 100.0)), None);
+        // the turning points of filters of 0.02 and 0.01 Hz
+        for tau in [8.0, 16.0] {
+            let turns = |t: f64| 2.0 * (0.3 + t / tau) * libm::exp(-t / tau);
+            assert_eq!(ends(Some(0.2), turns), None);
+            assert_eq!(ends(None, turns), None);
+        }
         for (f, d) in [(1.0, 0.001), (11.0, 0.02), (53.0, 0.001)] {
             let w = std::f64::consts::TAU * f;
             let swings = |t: f64| 0.5 * libm::exp(-d * w * t) * libm::cos(w * t);
