@@ -18,6 +18,7 @@
 //! assert_eq!(blocks.next_block().unwrap().unwrap().position.line, 3);
 //! ```
 
+mod foreign;
 mod memory;
 mod reader;
 pub(crate) mod regions;

@@ -33,14 +33,10 @@
 
 mod blend;
 mod notice;
+mod parts;
 mod rounding;
 
-use crate::block::{
-    Block, BlockLimit, ChannelDynamics, ContourMode, ContourSettings, CurveJerk, Feed, SlopeKind,
-};
-use crate::limits::{PathExtremes, PathSpeeds};
-use crate::path::piece::section;
-use crate::path::{Path, PolyPath, PolyPiece};
+use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, Feed};
 use crate::worth::{Part, Passage};
 use kontur_filters::time::CycleTime;
 pub(crate) use rounding::NEEDLE_RAD;
@@ -51,13 +47,6 @@ pub use notice::{NoContour, Notice};
 
 /// Number of consecutive blocks too short to be relevant, after which one of them counts all the same.
 const SKIPPED: usize = 100;
-/// Pieces per half of the curve, each with its own speed (unless `CONST_VEL` is set).
-const PARTS: u32 = 4;
-/// Relative gain of speed in a half of a piece from which on the piece is divided: a block has one speed, that of its
-/// sharpest bend. Assumption: 4 % is worth two more blocks.
-const GAIN: f64 = 0.04;
-/// Number of times that a piece may be halved.
-const DIVISIONS: u32 = 2;
 /// A remainder of a block between two curves that is shorter than this share of the block counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -188,33 +177,7 @@ impl Contouring {
         }
         let seq = held.block.seq;
         let mut from = 0.0;
-        let rounded = curve(&held, &self.skipped, &block, &settings).and_then(|curve| {
-            let Some(curve) = curve else { return Ok(None) };
-            let parts = self.parts(&held.block, &block, &curve, &settings);
-            let passage = Passage {
-                from: &held.block,
-                bridged: &self.skipped,
-                to: &block,
-                cycle: self.cycle,
-                kernel_active,
-            };
-            // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end speed are
-            // programmed explicitly
-            let monitored = [&held.block, &block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
-            let demanded = matches!(settings.mode, ContourMode::Pos { .. })
-                || held.block.end_velocity_mm_s.is_some();
-            let timed = |(block, v_mm_s): &(Block, f64)| Part {
-                length_mm: block.path.length(),
-                v_mm_s: *v_mm_s,
-            };
-            let timed: Vec<Part> = parts.iter().map(timed).collect();
-            if monitored || demanded || passage.is_worth(&timed, curve.pre_mm, curve.post_mm) {
-                Ok(Some((curve, parts)))
-            } else {
-                Err(NoContour::Slower)
-            }
-        });
-        match rounded {
+        match self.rounded(&held, &block, &settings, kernel_active) {
             Ok(Some((curve, parts))) => {
                 let soft = matches!(
                     settings.mode,
@@ -239,6 +202,41 @@ impl Contouring {
             }
         }
         self.hold(Held { block, from });
+    }
+
+    /// The curve at the corner between the held block and the next relevant one, with its blocks and their speeds in mm/s; `None`
+    /// if nothing is to be rounded there.
+    fn rounded(
+        &mut self,
+        held: &Held,
+        block: &Block,
+        settings: &ContourSettings,
+        kernel_active: bool,
+    ) -> Result<Option<(Curve, Vec<(Block, f64)>)>, NoContour> {
+        let Some(curve) = curve(held, &self.skipped, block, settings)? else { return Ok(None) };
+        let parts = self.parts(&held.block, block, &curve, settings);
+        let passage = Passage {
+            from: &held.block,
+            bridged: &self.skipped,
+            to: block,
+            cycle: self.cycle,
+            kernel_active,
+        };
+        // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end speed are
+        // programmed explicitly
+        let monitored = [&held.block, block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
+        let demanded = matches!(settings.mode, ContourMode::Pos { .. })
+            || held.block.end_velocity_mm_s.is_some();
+        let timed = |(block, v_mm_s): &(Block, f64)| Part {
+            length_mm: block.path.length(),
+            v_mm_s: *v_mm_s,
+        };
+        let timed: Vec<Part> = parts.iter().map(timed).collect();
+        if monitored || demanded || passage.is_worth(&timed, curve.pre_mm, curve.post_mm) {
+            Ok(Some((curve, parts)))
+        } else {
+            Err(NoContour::Slower)
+        }
     }
 
     /// A block whose end is not rounded is final.
@@ -267,130 +265,6 @@ impl Contouring {
         block.contour = None;
         self.ready.push(block);
     }
-
-    /// The blocks of a curve, each with its speed in mm/s. Each part has the feed rate of the block that it belongs to, unless the
-    /// speed in the curve is to be constant.
-    ///
-    /// Assumption: the documents do not mention different feed rates; the feed rate changes where the block ends.
-    fn parts(
-        &mut self,
-        from: &Block,
-        to: &Block,
-        curve: &Curve,
-        settings: &ContourSettings,
-    ) -> Vec<(Block, f64)> {
-        let mut block = from.clone();
-        block.contour = None;
-        let whole = settings.constant_velocity.then(|| slower(from, to));
-        let halves = [from, to].map(|b| whole.unwrap_or_else(|| (speed(b), b.feed_ratio)));
-        // the end of the block lies inside the curve
-        let halves = halves.map(|(feed, ratio)| match (from.end_velocity_mm_s, feed) {
-            (Some(e), Feed::PathVelocity(v)) => (Feed::PathVelocity(v.min(e)), ratio),
-            _ => (feed, ratio),
-        });
-        let dev = [from, to].iter().filter_map(|b| b.tolerance.ax_dev_mm).min_by(f64::total_cmp);
-        block.tolerance.ax_dev_mm = dev;
-        if let Some(check) = settings.curve_jerk {
-            block.dynamics = self.with_check(&block.dynamics, check);
-        }
-        let parts = if settings.constant_velocity { 1 } else { PARTS };
-        let feed_axes = from.dynamics.feed_axes.clone();
-        let limit = match settings.limit {
-            BlockLimit::Before => 0,
-            BlockLimit::Within if !settings.constant_velocity => parts,
-            // one block, so that both halves have one speed
-            BlockLimit::Within | BlockLimit::After => 2 * parts,
-        };
-        let timed = |piece: PolyPiece, i: u32| {
-            let seq = if i < limit { from.seq } else { to.seq };
-            let (feed, feed_ratio) = halves[usize::from(i >= limit)];
-            let path = Path::Curve(Box::new(PolyPath::through(vec![piece.clone()], &feed_axes)?));
-            let block = Block { seq, path, feed, feed_ratio, ..block.clone() };
-            let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
-            let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
-            let is_limited = v < speeds.programmed_mm_s * (1.0 - ROUNDING);
-            Some(Timed { piece, block, v, is_limited })
-        };
-        // where the acceleration is zero at every boundary, and with the ramps of SIN2, shorter blocks are not faster;
-        // under AX_DEV the planner divides what bends unevenly, and more blocks only take it longer
-        let gains = |b: &Block| b.slope.plans_across() && b.slope.kind != SlopeKind::Sin2;
-        let divided = !settings.constant_velocity && dev.is_none() && gains(from) && gains(to);
-        let divisions = if divided { DIVISIONS } else { 0 };
-        let mut pieces = Vec::new();
-        for (i, piece) in (0..).zip(curve.blend.pieces(parts)) {
-            if let Some(whole) = timed(piece, i) {
-                divide(whole, divisions, &|piece| timed(piece, i), &mut pieces);
-            }
-        }
-        // neighbouring pieces with the same feed rate and the same permitted speed form one block
-        let groups = pieces.chunk_by(|one, next| {
-            let same = settings.constant_velocity || (next.v - one.v).abs() <= 1e-9 * one.v;
-            let (a, b) = (&one.block, &next.block);
-            same && (a.seq, a.feed, a.feed_ratio) == (b.seq, b.feed, b.feed_ratio)
-        });
-        let joined = |group: &[Timed]| {
-            if let [single] = group {
-                return Some((single.block.clone(), single.v));
-            }
-            let pieces = group.iter().map(|timed| timed.piece.clone()).collect();
-            let path = Path::Curve(Box::new(PolyPath::through(pieces, &feed_axes)?));
-            let slowest = group.iter().map(|timed| timed.v).fold(f64::INFINITY, f64::min);
-            Some((Block { path, ..group.first()?.block.clone() }, slowest))
-        };
-        groups.filter_map(joined).collect()
-    }
-
-    fn with_check(
-        &mut self,
-        dynamics: &Arc<ChannelDynamics>,
-        check: CurveJerk,
-    ) -> Arc<ChannelDynamics> {
-        if dynamics.curve_jerk == check {
-            return Arc::clone(dynamics);
-        }
-        match &self.checked {
-            Some((of, made)) if Arc::ptr_eq(of, dynamics) && made.curve_jerk == check => {
-                Arc::clone(made)
-            }
-            _ => {
-                let mut made = ChannelDynamics::clone(dynamics);
-                made.curve_jerk = check;
-                let made = Arc::new(made);
-                self.checked = Some((Arc::clone(dynamics), Arc::clone(&made)));
-                made
-            }
-        }
-    }
-}
-
-/// A piece of a curve as a block.
-struct Timed {
-    piece: PolyPiece,
-    block: Block,
-    /// Highest speed in mm/s.
-    v: f64,
-    /// Whether the curve is slower than the feed rate.
-    is_limited: bool,
-}
-
-/// Outputs a piece, or its parts where its bend limits the speed of one part less than that of the other: up to
-/// `divisions` halvings. `timed` makes a block of a part.
-fn divide(
-    whole: Timed,
-    divisions: u32,
-    timed: &impl Fn(PolyPiece) -> Option<Timed>,
-    out: &mut Vec<Timed>,
-) {
-    let half =
-        |from: f64| timed(whole.piece.iter().map(|c| section(c, from, from + 0.5)).collect());
-    let halves = (divisions > 0 && whole.is_limited).then(|| half(0.0).zip(half(0.5))).flatten();
-    match halves.filter(|(a, b)| a.v.max(b.v) > (1.0 + GAIN) * whole.v) {
-        Some((first, second)) => {
-            divide(first, divisions - 1, timed, out);
-            divide(second, divisions - 1, timed, out);
-        }
-        None => out.push(whole),
-    }
 }
 
 /// Feed of a block that is shortened: a duration is converted to the speed it means.
@@ -399,20 +273,6 @@ fn speed(block: &Block) -> Feed {
         Feed::Duration(t) => Feed::PathVelocity(block.path.length() / t),
         feed => feed,
     }
-}
-
-/// The slower of the feeds of two blocks, with its ratio; a programmed feed counts as slower than rapid.
-fn slower(a: &Block, b: &Block) -> (Feed, f64) {
-    let (fa, fb) = (speed(a), speed(b));
-    let of_b = match (fa, fb) {
-        (Feed::PathVelocity(va), Feed::PathVelocity(vb)) => vb * b.feed_ratio < va * a.feed_ratio,
-        (Feed::Rapid, Feed::Rapid) | (Feed::ShareOfMaximum(_), Feed::ShareOfMaximum(_)) => {
-            b.feed_ratio < a.feed_ratio
-        }
-        (Feed::Rapid, _) => true,
-        _ => false,
-    };
-    if of_b { (fb, b.feed_ratio) } else { (fa, a.feed_ratio) }
 }
 
 fn is_feed(block: &Block, i: usize) -> bool {

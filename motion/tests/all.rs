@@ -20,7 +20,6 @@ mod realtime;
 mod realtime_tolerance;
 mod rests;
 mod same_time;
-mod same_time_kept;
 mod short_kernels;
 mod slope_properties;
 mod slope_tables;

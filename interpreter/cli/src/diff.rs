@@ -20,7 +20,7 @@ use crate::files::is_standard;
 use crate::{Error, Exit};
 use compare::Comparison;
 use serde::Serialize;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use table::Table;
 use text::text;
 use verdict::Verdict;
@@ -30,10 +30,7 @@ use verdict::Verdict;
 /// # Errors
 /// [`Error`] if a trace cannot be read or a program cannot be run.
 pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error> {
-    if [&args.a, &args.b].into_iter().any(|path| is_standard(path)) {
-        let text = "diff compares files: `-`, the standard input, has no name to tell a trace from a program";
-        return Err(Error::Usage(text.to_owned()));
-    }
+    are_files([&args.a, &args.b])?;
     let is_a = table::is_trace(&args.a)?;
     let is_b = args.map.is_empty() && table::is_trace(&args.b)?;
     if is_a
@@ -89,6 +86,15 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
     let verdict = || verdict::of(&outcome, program.map(|(_, path)| path.as_path()));
     let done = Done { names: &names, outcome: &outcome, equal: outcome.equal };
     done.report(args.format, || text(&names, &outcome), verdict, console)
+}
+
+/// Refuses the standard input.
+fn are_files(paths: [&PathBuf; 2]) -> Result<(), Error> {
+    if paths.into_iter().any(|path| is_standard(path)) {
+        let text = "diff compares files: `-`, the standard input, has no name to tell a trace from a program";
+        return Err(Error::Usage(text.to_owned()));
+    }
+    Ok(())
 }
 
 /// A completed comparison.

@@ -255,6 +255,25 @@ fn scope_channel(
     ))
 }
 
+/// The column of the times and its unit in s: by its name, and by the unit in the name or in `units`, the line below.
+fn time_column(names: &[String], units: &[&str]) -> Result<Option<(usize, f64)>, String> {
+    let column = names.iter().enumerate().find_map(|(i, name)| {
+        let lower = name.to_ascii_lowercase();
+        let base = lower.split(['[', '(']).next().unwrap_or_default().trim().to_owned();
+        let written =
+            lower.split_once(['[', '(']).map(|(_, u)| u.trim_end_matches([']', ')']).to_owned());
+        let below = units.get(i).map(|u| u.trim_matches(['[', ']', '(', ')']).to_owned());
+        let (_, seconds) = TIME_NAMES.iter().find(|(n, _)| *n == base)?;
+        let unit = written.or(below).map(|u| u.trim().to_owned()).filter(|u| !u.is_empty());
+        let Some(unit) = unit else { return Some(Ok((i, *seconds))) };
+        let known = TIME_UNITS.iter().find(|(u, _)| *u == unit).map(|(_, seconds)| (i, *seconds));
+        Some(known.ok_or_else(|| {
+            format!("column {name}: `{unit}` is not a unit of time; use s, ms, us, ns, min or h")
+        }))
+    });
+    column.transpose()
+}
+
 /// Reads a table with column names in the last header line that is wide enough, and units in another line or in the
 /// names.
 fn plain(
@@ -276,21 +295,7 @@ fn plain(
     };
     // `time [s]`, `Time (ms)` or a unit in the line below
     let units: Vec<&str> = header.last().filter(|row| !words(row)).cloned().unwrap_or_default();
-    let time = names.iter().enumerate().find_map(|(i, name)| {
-        let lower = name.to_ascii_lowercase();
-        let base = lower.split(['[', '(']).next().unwrap_or_default().trim().to_owned();
-        let written =
-            lower.split_once(['[', '(']).map(|(_, u)| u.trim_end_matches([']', ')']).to_owned());
-        let below = units.get(i).map(|u| u.trim_matches(['[', ']', '(', ')']).to_owned());
-        let (_, seconds) = TIME_NAMES.iter().find(|(n, _)| *n == base)?;
-        let unit = written.or(below).map(|u| u.trim().to_owned()).filter(|u| !u.is_empty());
-        let Some(unit) = unit else { return Some(Ok((i, *seconds))) };
-        let known = TIME_UNITS.iter().find(|(u, _)| *u == unit).map(|(_, seconds)| (i, *seconds));
-        Some(known.ok_or_else(|| {
-            format!("column {name}: `{unit}` is not a unit of time; use s, ms, us, ns, min or h")
-        }))
-    });
-    let time = time.transpose()?;
+    let time = time_column(&names, &units)?;
     let mut channels = Vec::new();
     for (i, name) in names.iter().enumerate().take(columns) {
         if time.is_some_and(|(t, _)| t == i) {

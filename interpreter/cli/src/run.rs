@@ -66,8 +66,7 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     let summary = summary.map(|summary| summary.finish(&totals));
     let mut times = times.map(times::Collector::finish);
     if let (Some(times), Some(table)) = (&times, &mut table) {
-        let name = outputs.last().map(|path| path.display().to_string()).unwrap_or_default();
-        write_times(times, table).map_err(|e| Error::io(name, e))?;
+        write_times(times, table, outputs.last())?;
     }
     if let Some(times) = times.as_mut().filter(|_| summary.is_some() && !totals.aborted) {
         times::try_out(times, &args.simulation.request(&args.program));
@@ -78,17 +77,30 @@ pub(crate) fn run(args: &RunArgs, console: &mut Console) -> Result<Exit, Error> 
     if let Some(e) = interrupted {
         return Err(e);
     }
-    Ok(match totals {
+    Ok(exit_of(&totals))
+}
+
+fn exit_of(totals: &Totals) -> Exit {
+    match totals {
         Totals { input_failed: true, .. } => Exit::Io,
         Totals { aborted: true, .. } => Exit::Aborted,
         _ => Exit::Finished,
-    })
+    }
 }
 
-fn write_times(times: &times::Times, table: &mut Target) -> io::Result<()> {
-    let text = times.csv().map_err(io::Error::from)?;
-    table.file()?.write_all(&text)?;
-    table.show()
+/// Writes the times of all lines to their table; `path` is named if it fails.
+fn write_times(
+    times: &times::Times,
+    table: &mut Target,
+    path: Option<&PathBuf>,
+) -> Result<(), Error> {
+    let mut write = || {
+        let text = times.csv().map_err(io::Error::from)?;
+        table.file()?.write_all(&text)?;
+        table.show()
+    };
+    let name = || path.map(|path| path.display().to_string()).unwrap_or_default();
+    write().map_err(|e: io::Error| Error::io(name(), e))
 }
 
 /// Prints the summary, with the times of the blocks if there are any.

@@ -167,6 +167,21 @@ impl Collector {
         u8::try_from(i).ok()
     }
 
+    /// What the axes that have moved have reached.
+    fn ranges(&self) -> Vec<AxisRange> {
+        let axes = self.facts.axes.iter().zip(&self.reached);
+        axes.filter(|(_, reached)| reached.position.0.is_finite())
+            .map(|(facts, reached)| AxisRange {
+                name: facts.name.clone(),
+                unit: facts.unit(),
+                position: reached.position,
+                velocity: reached.velocity,
+                acceleration: reached.acceleration,
+                torque_n_m: reached.torque,
+            })
+            .collect()
+    }
+
     /// The times of the run.
     pub(crate) fn finish(self) -> Times {
         let cycle_s = f64::from(self.facts.cycle_us) / 1e6;
@@ -211,21 +226,10 @@ impl Collector {
             })
             .collect();
         lines.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
-        let axes =
-            self.facts.axes.iter().zip(&self.reached).filter(|(_, r)| r.position.0.is_finite());
         Times {
             duration_s: total as f64 * cycle_s,
             reasons: of_cycles(&all),
-            axes: axes
-                .map(|(facts, reached)| AxisRange {
-                    name: facts.name.clone(),
-                    unit: facts.unit(),
-                    position: reached.position,
-                    velocity: reached.velocity,
-                    acceleration: reached.acceleration,
-                    torque_n_m: reached.torque,
-                })
-                .collect(),
+            axes: self.ranges(),
             lines,
             proposals: Vec::new(),
             files: self.facts.files,

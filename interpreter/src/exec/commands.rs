@@ -17,7 +17,9 @@ mod exceptions;
 mod files;
 mod flush;
 mod frames;
+mod hsc;
 pub(in crate::exec) mod keys;
+mod kinematics;
 mod manual;
 mod measuring;
 mod messages;
@@ -73,7 +75,7 @@ const ROWS: &[Row] = &[
     shaping::FILTER,
     // contour
     contour::CONTOUR_MODE,
-    contour::HSC,
+    hsc::HSC,
     path_limits::VECTOR_LIMIT,
     path_limits::VECTORVEL,
     path_limits::VECTORACC,
@@ -131,14 +133,14 @@ const ROWS: &[Row] = &[
     off_only("ECS"),
     off_only("TRACK CS"),
     // kinematics
-    run("TRAFO", frames::transformation).several().values(),
-    run("RTCP", frames::transformation).several().values(),
-    run("KIN ID", frames::transformation).several().values(),
-    run("ORI MODE", frames::transformation).several().values(),
-    run("PTP", frames::transformation).several().values(),
-    run("CYL", frames::kinematic).several().values(),
-    run("TLC", frames::kinematic).several().values(),
-    run("FACE", frames::kinematic).several().values(),
+    run("TRAFO", kinematics::transformation).several().values(),
+    run("RTCP", kinematics::transformation).several().values(),
+    run("KIN ID", kinematics::transformation).several().values(),
+    run("ORI MODE", kinematics::transformation).several().values(),
+    run("PTP", kinematics::transformation).several().values(),
+    run("CYL", kinematics::kinematic).several().values(),
+    run("TLC", kinematics::kinematic).several().values(),
+    run("FACE", kinematics::kinematic).several().values(),
     off_only("CAX"),
     off_only("CAXTRACK"),
     compensation::TANGFEED,

@@ -20,6 +20,7 @@ use self::interim::Interim;
 use self::item::{Item, Rest};
 use super::fault::{Fault, Outcome};
 use super::geometry::point::Point;
+use super::report::Report;
 use super::step::{AtCorner, EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
@@ -311,6 +312,28 @@ impl Contour {
     /// Whether the corner after the last motion is to be rounded by contouring.
     pub(super) fn has_contoured_corner(&self) -> bool {
         matches!(self.corner(), Passing::Contoured)
+    }
+
+    /// An exact stop ends a B-spline: K-0111 unless AUTO_OFF_G60 asks for it.
+    pub(super) fn spline_stops(&self, span: Span, report: &mut Report) {
+        if self.hsc.off_at_stop || self.hsc.spline().is_none() {
+            return;
+        }
+        let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
+        let fault = Fault::new(Condition::Fallback, text, span)
+            .hint("without this key, the default, it does not end the spline of the control");
+        report.note_once("AUTO_OFF_G60", fault);
+    }
+
+    /// 120102: a B-spline ends only at its own commands.
+    ///
+    /// Source: TF5200 programming manual 207042443, diagnosis 264284811.
+    pub(super) fn may_flush(&self, what: &str, span: Span) -> Outcome<()> {
+        if self.hsc.on && !self.hsc.rounds_corners {
+            let text = format!("{what} while #HSC [BSPLINE] is active");
+            return Err(Fault::new(Condition::FlushInSpline, text, span));
+        }
+        Ok(())
     }
 
     /// The corner after the last motion is not rounded.

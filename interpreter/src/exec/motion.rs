@@ -170,7 +170,7 @@ impl Decoder {
             let text = "G60 without motion: the path stops here without waiting for an axis";
             let hint = "write G60 in the block at the end of which the axes must have arrived";
             self.report.note(Fault::new(Condition::AxisMissing, text, g.span).hint(hint));
-            self.spline_stops(g.span);
+            self.contour.spline_stops(g.span, &mut self.report);
             self.sync(Sync::Dwell { seconds: 0.0 });
         }
     }

@@ -84,13 +84,7 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
     out.text("width", &r.width.to_string());
     out.text("passes", &r.passes.len().to_string());
     out.text("within", &format!("{:e}", r.within_mm()));
-    let buckets = |value: fn(&Bucket) -> String| join(r.buckets.iter().map(value));
-    out.text("k", &buckets(|b| b.k.to_string()));
-    out.text("last", &r.buckets.last().map_or(0, |b| b.last).to_string());
-    out.text("line", &buckets(|b| b.line.to_string()));
-    out.text("file", &buckets(|b| b.file.to_string()));
-    out.text("block", &buckets(|b| b.block.map_or_else(|| "null".to_owned(), |n| n.to_string())));
-    out.text("limit", &buckets(|b| format!("\"{}\"", b.limit.name())));
+    stretches(&mut out, r);
     out.text("pk", &join(points.iter().map(|p| p.k.to_string())));
     out.text("pline", &join(points.iter().map(|p| p.line.to_string())));
     out.text("pass", &join(points.iter().map(|p| p.pass.to_string())));
@@ -108,7 +102,7 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
             join((0..2).map(|i| join(path.iter().map(|p| number(p[i])))))
         })),
     );
-    out.text("passed", &buckets(|b| b.pass.to_string()));
+    out.text("passed", &join(r.buckets.iter().map(|b| b.pass.to_string())));
     out.text("curves", &join(r.curves.iter().enumerate().map(|(i, c)| curve(r, i, c))));
     let acceleration = |a: &Vec<f64>| join(a.iter().map(|v| rounded(*v, 3)));
     out.text("accelerations", &join(r.accelerations.iter().map(acceleration)));
@@ -133,6 +127,17 @@ fn run(runs: &[Drawn], drawn: &Drawn, beside: &Beside) -> String {
     out.text("window", &json!(beside.window).to_string());
     out.text("stops", &join(r.stops.found().iter().map(|s| stop(r, s))));
     out.finish()
+}
+
+/// The columns of the stretches of time that are drawn: beginning, place in the program, limit of the speed.
+fn stretches(out: &mut Json, r: &Recording) {
+    let buckets = |value: fn(&Bucket) -> String| join(r.buckets.iter().map(value));
+    out.text("k", &buckets(|b| b.k.to_string()));
+    out.text("last", &r.buckets.last().map_or(0, |b| b.last).to_string());
+    out.text("line", &buckets(|b| b.line.to_string()));
+    out.text("file", &buckets(|b| b.file.to_string()));
+    out.text("block", &buckets(|b| b.block.map_or_else(|| "null".to_owned(), |n| n.to_string())));
+    out.text("limit", &buckets(|b| format!("\"{}\"", b.limit.name())));
 }
 
 /// Axis, target, window, then t1, t2 and t3 in cycles.

@@ -49,15 +49,8 @@ pub(super) fn draw(
     let finished =
         |row: usize| rows.cells[row][state] == Cell::Word(State::Finished.name().to_owned());
     let legend = legend(&series, others, finished);
-    let shown = |name: &&String| {
-        if args.columns.is_empty() {
-            USUAL.contains(&name.as_str()) || args.amplitude.iter().any(|a| a.text == **name)
-        } else {
-            args.columns.contains(name)
-        }
-    };
-    let panels =
-        rows.header.iter().enumerate().filter(|(_, name)| shown(name)).map(|(column, name)| {
+    let panels = rows.header.iter().enumerate().filter(|(_, name)| is_drawn(args, name)).map(
+        |(column, name)| {
             // values of an aborted run are not results
             let value = |row: usize| {
                 rows.cells[row][column].number().filter(|_| finished(row)).unwrap_or(f64::NAN)
@@ -80,7 +73,8 @@ pub(super) fn draw(
                 lines,
                 ..View::default()
             }
-        });
+        },
+    );
     let panels = panels.collect();
     let plot = Plot {
         title: rows.title.clone(),
@@ -91,6 +85,15 @@ pub(super) fn draw(
         panels,
     };
     Ok(plot.draw())
+}
+
+/// Whether a column has a panel.
+fn is_drawn(args: &SweepArgs, name: &String) -> bool {
+    if args.columns.is_empty() {
+        USUAL.contains(&name.as_str()) || args.amplitude.iter().any(|a| a.text == *name)
+    } else {
+        args.columns.contains(name)
+    }
 }
 
 /// The runs by the values of all parameters but the first one, whose `values` are the abscissas.

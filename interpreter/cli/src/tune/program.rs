@@ -18,7 +18,7 @@ use crate::target::keep_apart;
 use crate::{Error, Exit};
 use kontur_filters::analysis::tuning::Choice;
 use kontur_interpreter::diag::Location;
-use kontur_interpreter::job::{ForcedGuard, GuardCommands};
+use kontur_interpreter::job::{Facts, ForcedGuard, GuardCommands};
 use kontur_interpreter::machine::Machine;
 use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::{Collector, State, Summary};
@@ -68,9 +68,7 @@ pub(super) fn answer(
         // including the subroutines that the run reached
         keep_apart(&reads.so_far(), args.output.as_slice())?;
         let summary = summary.finish(&run.totals());
-        let axes = summary.axes.iter().zip(&run.facts().axes);
-        let dev_mm = axes.filter(|(_, axis)| !axis.spindle).map(|(axis, _)| axis.max_dev);
-        let dev_mm = dev_mm.fold(0.0, f64::max);
+        let dev_mm = largest_deviation_mm(&summary, run.facts());
         let ax_dev = own.ax_dev.as_ref().map(|(_, value)| *value).or(ax_dev_mm);
         Ok::<_, Error>(Outcome { choice, ax_dev, summary, dev_mm })
     };
@@ -100,6 +98,13 @@ pub(super) fn answer(
         command: command.map(|(command, _)| command),
         exit: if all_aborted { Exit::Aborted } else { Exit::Finished },
     })
+}
+
+/// Largest deviation of a path axis from the contour in mm (deg).
+fn largest_deviation_mm(summary: &Summary, facts: &Facts) -> f64 {
+    let axes = summary.axes.iter().zip(&facts.axes);
+    let path_axes = axes.filter(|(_, axis)| !axis.spindle).map(|(axis, _)| axis.max_dev);
+    path_axes.fold(0.0, f64::max)
 }
 
 /// For each mode the best and the given frequency, and the highest one that keeps the residual within its limit: a

@@ -1,4 +1,4 @@
-//! Commands for the contour: `#CONTOUR MODE`, `#HSC`.
+//! `#CONTOUR MODE`.
 //!
 //! Source: TF5200 programming manual.
 
@@ -12,7 +12,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::report::Report;
 use crate::exec::values::number::is_true;
 use crate::syntax::ast::{Group, ItemKind, ItemValue, Span};
-use kontur_motion::block::{BlockLimit, CurveJerk, SplineSettings};
+use kontur_motion::block::{BlockLimit, CurveJerk};
 
 arguments! {
     /// Keys of `#CONTOUR MODE`.
@@ -269,14 +269,14 @@ fn report_unused(report: &mut Report, keys: &ContourArguments, mode: Mode, span:
 }
 
 /// Applies a number if it is given, converted from its unit.
-fn set(slot: &mut f64, written: Option<(f64, Span)>, unit: f64) {
+pub(super) fn set(slot: &mut f64, written: Option<(f64, Span)>, unit: f64) {
     if let Some((x, _)) = written {
         *slot = x * unit;
     }
 }
 
 /// Applies a switch if it is given: a key without a value switches on.
-fn switch(slot: &mut bool, written: Option<(Option<f64>, Span)>) {
+pub(super) fn switch(slot: &mut bool, written: Option<(Option<f64>, Span)>) {
     if let Some((x, _)) = written {
         *slot = x.is_none_or(is_true);
     }
@@ -315,120 +315,4 @@ fn points(
         settings.point_mm[axis] = Some(value + decoder.geometry.coordinates.active_offset(axis));
     }
     Ok(Some(rest))
-}
-
-arguments! {
-    /// Keys of `#HSC`.
-    struct HscArguments {
-        bspline: Flag "BSPLINE", "", "the first key: a B-spline through short blocks";
-        path_dev: Number "PATH_DEV" in at_least(0.0), "mm", "default of the channel list (P-CHAN-00122, 0.2); 0: not monitored";
-        track_dev: Number "TRACK_DEV" in between(0.0, 1e6), "deg", "default of the channel list (P-CHAN-00123, 5); 0: not monitored";
-        merge: MaybeNumber "MERGE", "", "no effect";
-        auto_off_path: MaybeNumber "AUTO_OFF_PATH", "", "ends the spline";
-        auto_off_track: MaybeNumber "AUTO_OFF_TRACK", "", "ends the spline";
-        auto_off_g00: MaybeNumber "AUTO_OFF_G00", "", "ends the spline";
-        auto_off_g60: MaybeNumber "AUTO_OFF_G60", "", "an exact stop ends the spline, always so here (K-0111 without it)";
-        max_path_length: Number "MAX_PATH_LENGTH" in at_least(0.0), "mm", "longer blocks are kept";
-        max_angle: Number "MAX_ANGLE" in between(0.0, 180.0), "deg", "sharper corners are kept; 0: unlimited";
-        surface: Flag "SURFACE", "", "not supported";
-        cos_phi_min: MaybeNumber "COS_PHI_MIN", "", "of OPMODE=2, not supported";
-        fact_block_len: MaybeNumber "FACT_BLOCK_LEN", "", "of OPMODE=2, not supported";
-        opmode: Number "OPMODE", "", "1: corners within CONTERROR; default until BSPLINE is written";
-        conterror: Number "CONTERROR" in at_least(0.0), "mm", "default 0.1";
-    }
-}
-
-impl HscArguments {
-    /// The first key that only a B-spline has.
-    fn of_spline(&self) -> Option<(&'static str, Span)> {
-        let number = |key: Option<(f64, Span)>| key.map(|(_, span)| span);
-        let switch = |key: Option<(Option<f64>, Span)>| key.map(|(_, span)| span);
-        let keys = [
-            ("PATH_DEV", number(self.path_dev)),
-            ("TRACK_DEV", number(self.track_dev)),
-            ("MAX_PATH_LENGTH", number(self.max_path_length)),
-            ("MAX_ANGLE", number(self.max_angle)),
-            ("MERGE", switch(self.merge)),
-            ("AUTO_OFF_PATH", switch(self.auto_off_path)),
-            ("AUTO_OFF_TRACK", switch(self.auto_off_track)),
-            ("AUTO_OFF_G00", switch(self.auto_off_g00)),
-            ("AUTO_OFF_G60", switch(self.auto_off_g60)),
-        ];
-        keys.into_iter().find_map(|(key, at)| Some((key, at?)))
-    }
-}
-
-/// Row of `#HSC`.
-pub(super) const HSC: Row = Row::run("HSC", hsc)
-    .form("#HSC [ON|OFF] [BSPLINE keys]   #HSC [ON|OFF] [OPMODE=1 CONTERROR=..]")
-    .meaning("fits a B-spline through short blocks; OPMODE=1 rounds corners within CONTERROR")
-    .keys(HscArguments::KEYS)
-    .note("BSPLINE first removes the rounding noise of the coordinates, within 30 % of the tolerances and at most 3 um")
-    .example("#HSC ON [BSPLINE PATH_DEV=0.05]")
-    .related(&["120393", "120396"]);
-
-/// `#HSC [ON|OFF] [BSPLINE ..]`, `#HSC [..] [OPMODE= CONTERROR=]`.
-fn hsc(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    call.no_more_words()?;
-    let unit = decoder.modal.tolerance_unit_mm(&decoder.machine.channel);
-    let keys = HscArguments::read(decoder, &call.title(), call.command.groups.first())?;
-    let mut hsc = decoder.contour.hsc;
-    let opmode = keys
-        .opmode
-        .map(|(mode, span)| (crate::exec::values::number::whole(mode, 1, 2), mode, span));
-    let active = hsc.on && call.command.on != Some(false);
-    let other = match (keys.bspline, opmode) {
-        (Some(span), _) => hsc.rounds_corners.then_some(span),
-        (None, Some((Some(1), _, span))) => (!hsc.rounds_corners).then_some(span),
-        (None, Some((Some(2), _, span))) => Some(span),
-        _ => keys.surface,
-    };
-    if let (true, Some(span)) = (active, other) {
-        let text = "#HSC: another mode while it is on";
-        return Err(Fault::new(Condition::HscModeWhileOn, text, span));
-    }
-    if let Some(span) = keys.surface {
-        return Err(Fault::unsupported("#HSC [SURFACE]", span));
-    }
-    if let Some((_, span)) = keys.cos_phi_min.or(keys.fact_block_len) {
-        return Err(Fault::unsupported("#HSC [OPMODE=2]", span));
-    }
-    match opmode {
-        Some((Some(1), _, _)) => hsc.rounds_corners = true,
-        Some((Some(_), _, span)) => return Err(Fault::unsupported("#HSC [OPMODE=2]", span)),
-        Some((None, mode, span)) => {
-            let text = format!("OPMODE={mode}, allowed: 1 and 2");
-            return Err(Fault::new(Condition::Range, text, span));
-        }
-        None => {}
-    }
-    if keys.bspline.is_some() {
-        hsc.rounds_corners = false;
-    } else if let (true, Some((key, at))) = (hsc.rounds_corners, keys.of_spline()) {
-        let text = format!("#HSC: {key} belongs to the B-spline, whose first key is BSPLINE");
-        return Err(Fault::new(Condition::TokenUnknown, text, at));
-    }
-    if let (false, Some((_, at))) = (hsc.rounds_corners, keys.conterror) {
-        let text = "CONTERROR has no effect on a B-spline: it belongs to OPMODE=1";
-        let hint = "write #HSC [OPMODE=1 CONTERROR=..], or PATH_DEV for the B-spline";
-        decoder.report.note(Fault::new(Condition::Odd, text, at).hint(hint));
-    }
-    set(&mut hsc.spline.path_dev_mm, keys.path_dev, unit);
-    set(&mut hsc.spline.track_dev_deg, keys.track_dev, 1.0);
-    set(&mut hsc.spline.max_length_mm, keys.max_path_length, unit);
-    if let Some((angle_deg, _)) = keys.max_angle {
-        hsc.spline.max_angle_deg = SplineSettings::angle_limit_deg(angle_deg);
-    }
-    set(&mut hsc.contour_error_mm, keys.conterror, unit);
-    switch(&mut hsc.spline.off_at_path_dev, keys.auto_off_path);
-    switch(&mut hsc.spline.off_at_track_dev, keys.auto_off_track);
-    switch(&mut hsc.spline.off_at_rapid, keys.auto_off_g00);
-    switch(&mut hsc.off_at_stop, keys.auto_off_g60);
-    if let Some((_, span)) = keys.merge {
-        let text = "#HSC: MERGE has no effect";
-        decoder.report.note_once("HSC MERGE", Fault::new(Condition::Fallback, text, span));
-    }
-    hsc.on = call.command.on.unwrap_or(hsc.on);
-    decoder.contour.hsc = hsc;
-    Ok(())
 }

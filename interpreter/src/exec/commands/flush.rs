@@ -3,9 +3,8 @@
 //! Source: TF5200 programming manual.
 
 use super::row::{Call, Row};
-use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
-use crate::exec::fault::{Fault, Outcome};
+use crate::exec::fault::Outcome;
 use crate::exec::step::Sync;
 use crate::syntax::ast::Span;
 
@@ -17,24 +16,14 @@ pub(super) const FLUSH: Row = Row::run("FLUSH", flush)
     .example("#FLUSH WAIT");
 
 /// 120102: a B-spline ends only at its own commands.
-///
-/// Source: TF5200 programming manual 207042443, diagnosis 264284811.
 pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
-    decoder.may_flush(&call.title(), call.span())
+    decoder.contour.may_flush(&call.title(), call.span())
 }
 
 impl Decoder {
-    fn may_flush(&self, what: &str, span: Span) -> Outcome<()> {
-        if self.contour.hsc.on && !self.contour.hsc.rounds_corners {
-            let text = format!("{what} while #HSC [BSPLINE] is active");
-            return Err(Fault::new(Condition::FlushInSpline, text, span));
-        }
-        Ok(())
-    }
-
-    /// As above, and not between the two blocks of a contour line either.
+    /// Neither in a B-spline nor between the two blocks of a contour line.
     fn may_flush_here(&self, what: &str, span: Span) -> Outcome<()> {
-        self.may_flush(what, span)?;
+        self.contour.may_flush(what, span)?;
         self.motion.contour_line.may_flush(what, span)
     }
 

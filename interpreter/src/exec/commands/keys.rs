@@ -1,5 +1,7 @@
 //! Keys in brackets: one description per command, used to read its arguments into a struct, to check and to explain them.
 
+mod kind;
+
 use super::range::Range;
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
@@ -69,28 +71,9 @@ macro_rules! arguments {
     };
 }
 pub(in crate::exec) use arguments;
-
-/// The kind of value after a key.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum KeyKind {
-    /// A number.
-    Number,
-    /// A number, or nothing.
-    MaybeNumber,
-    /// An identifier or text.
-    Word,
-    /// A number or a text.
-    Scalar,
-    /// Nothing.
-    Flag,
-}
-
-impl KeyKind {
-    /// A number may follow.
-    fn takes_number(self) -> bool {
-        matches!(self, Self::Number | Self::MaybeNumber | Self::Scalar)
-    }
-}
+pub(crate) use kind::KeyKind;
+pub(in crate::exec) use kind::{Argument, Flag, MaybeNumber, Number, Scalar, Word};
+use kind::{Found, Written};
 
 /// A key of a command.
 #[derive(Clone, Copy, Debug)]
@@ -128,111 +111,6 @@ impl std::fmt::Display for Key {
 /// The entry of an array that has one or none.
 pub(in crate::exec) const fn optional<const N: usize>(ranges: [Range; N]) -> Option<Range> {
     if N == 0 { None } else { Some(ranges[0]) }
-}
-
-/// A kind of key with the type of its values.
-pub(in crate::exec) trait Argument {
-    /// Type passed to the command.
-    type Value;
-    /// The kind.
-    const KIND: KeyKind;
-
-    /// The value of a key in the bracket.
-    fn take(found: &Found, name: &str) -> Option<Self::Value>;
-}
-
-/// A number with its position.
-#[derive(Debug)]
-pub(in crate::exec) struct Number;
-/// An optional number, with its position.
-#[derive(Debug)]
-pub(in crate::exec) struct MaybeNumber;
-/// A word or text, with its position.
-#[derive(Debug)]
-pub(in crate::exec) struct Word;
-/// A number or a text, with its position.
-#[derive(Debug)]
-pub(in crate::exec) struct Scalar;
-/// The position of a key without value.
-#[derive(Debug)]
-pub(in crate::exec) struct Flag;
-
-impl Argument for Number {
-    type Value = (f64, Span);
-    const KIND: KeyKind = KeyKind::Number;
-
-    fn take(found: &Found, name: &str) -> Option<(f64, Span)> {
-        match found.get(name)? {
-            (Written::Number(x), span) => Some((*x, *span)),
-            (Written::Word(_) | Written::Nothing, _) => None,
-        }
-    }
-}
-
-impl Argument for MaybeNumber {
-    type Value = (Option<f64>, Span);
-    const KIND: KeyKind = KeyKind::MaybeNumber;
-
-    fn take(found: &Found, name: &str) -> Option<(Option<f64>, Span)> {
-        match found.get(name)? {
-            (Written::Number(x), span) => Some((Some(*x), *span)),
-            (Written::Word(_) | Written::Nothing, span) => Some((None, *span)),
-        }
-    }
-}
-
-impl Argument for Word {
-    type Value = (Box<str>, Span);
-    const KIND: KeyKind = KeyKind::Word;
-
-    fn take(found: &Found, name: &str) -> Option<(Box<str>, Span)> {
-        match found.get(name)? {
-            (Written::Word(word), span) => Some((word.clone(), *span)),
-            (Written::Number(_) | Written::Nothing, _) => None,
-        }
-    }
-}
-
-impl Argument for Scalar {
-    type Value = (Value, Span);
-    const KIND: KeyKind = KeyKind::Scalar;
-
-    fn take(found: &Found, name: &str) -> Option<(Value, Span)> {
-        match found.get(name)? {
-            (Written::Number(x), span) => Some((Value::Number(*x), *span)),
-            (Written::Word(text), span) => Some((Value::Text(text.clone()), *span)),
-            (Written::Nothing, _) => None,
-        }
-    }
-}
-
-impl Argument for Flag {
-    type Value = Span;
-    const KIND: KeyKind = KeyKind::Flag;
-
-    fn take(found: &Found, name: &str) -> Option<Span> {
-        found.get(name).map(|(_, span)| *span)
-    }
-}
-
-/// Value of a key.
-#[derive(Clone, Debug, PartialEq)]
-enum Written {
-    Number(f64),
-    Word(Box<str>),
-    Nothing,
-}
-
-/// The keys in the bracket.
-#[derive(Debug, Default)]
-pub(in crate::exec) struct Found {
-    found: Vec<(&'static str, Written, Span)>,
-}
-
-impl Found {
-    fn get(&self, name: &str) -> Option<(&Written, &Span)> {
-        self.found.iter().find(|(n, _, _)| *n == name).map(|(_, written, span)| (written, span))
-    }
 }
 
 /// Condition of a repeated key: that of the command, that of all commands, or K-DUPKEY in a bracket of an axis.
@@ -276,7 +154,7 @@ pub(in crate::exec) fn read_all(
                 let text = format!("{title}: {name} given twice, the second one is ignored");
                 decoder.report.note(Fault::new(key_twice(title), text, item.span));
             }
-            Ok(Some((name, written))) => found.found.push((name, written, item.span)),
+            Ok(Some((name, written))) => found.push(name, written, item.span),
             Err(fault) => decoder.report.note(fault),
         }
     }
@@ -338,32 +216,7 @@ fn read(
 ) -> Outcome<Option<(&'static str, Written)>> {
     match &item.kind {
         ItemKind::Missing => Ok(None),
-        ItemKind::Flag(ident) => {
-            if let Some(key) = keys.iter().find(|k| ident.is(k.name)) {
-                return match key.kind {
-                    KeyKind::Flag | KeyKind::MaybeNumber => Ok(Some((key.name, Written::Nothing))),
-                    KeyKind::Number | KeyKind::Word | KeyKind::Scalar => {
-                        Err(incomplete(title, key, item.span))
-                    }
-                };
-            }
-            // `ID455`: a key and its number without separator
-            if let Some((name, number)) = ident.split_number() {
-                let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
-                if let Some(key) = key.filter(|k| k.kind.takes_number()) {
-                    return Ok(Some((key.name, Written::Number(number))));
-                }
-            }
-            // `IDP100`: a key and a parameter without separator
-            if let Some((name, place)) = ident.split_parameter() {
-                let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
-                if let Some(key) = key.filter(|k| k.kind.takes_number()) {
-                    let number = as_number(&decoder.read(&place)?, item.span)?;
-                    return Ok(Some((key.name, Written::Number(number))));
-                }
-            }
-            Err(unknown(title, ident, keys))
-        }
+        ItemKind::Flag(ident) => alone(decoder, title, ident, item.span, keys).map(Some),
         ItemKind::Pair { key: ident, value } => {
             let Some(key) = keys.iter().find(|k| ident.is(k.name)) else {
                 return Err(unknown(title, ident, keys));
@@ -391,6 +244,38 @@ fn read(
             Err(Fault::new(Condition::TokenUnknown, text, item.span).hint(known(keys)))
         }
     }
+}
+
+/// A word without `=`: a key without a value, or with a number or parameter written right after it.
+fn alone(
+    decoder: &Decoder,
+    title: &str,
+    ident: &Ident,
+    at: Span,
+    keys: &[Key],
+) -> Outcome<(&'static str, Written)> {
+    if let Some(key) = keys.iter().find(|k| ident.is(k.name)) {
+        return match key.kind {
+            KeyKind::Flag | KeyKind::MaybeNumber => Ok((key.name, Written::Nothing)),
+            KeyKind::Number | KeyKind::Word | KeyKind::Scalar => Err(incomplete(title, key, at)),
+        };
+    }
+    // `ID455`: a key and its number without separator
+    if let Some((name, number)) = ident.split_number() {
+        let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
+        if let Some(key) = key.filter(|k| k.kind.takes_number()) {
+            return Ok((key.name, Written::Number(number)));
+        }
+    }
+    // `IDP100`: a key and a parameter without separator
+    if let Some((name, place)) = ident.split_parameter() {
+        let key = keys.iter().find(|k| k.name.eq_ignore_ascii_case(name));
+        if let Some(key) = key.filter(|k| k.kind.takes_number()) {
+            let number = as_number(&decoder.read(&place)?, at)?;
+            return Ok((key.name, Written::Number(number)));
+        }
+    }
+    Err(unknown(title, ident, keys))
 }
 
 fn text(decoder: &Decoder, expr: &Expr) -> Outcome<Box<str>> {

@@ -11,6 +11,7 @@ use super::row::{Call, Row};
 use crate::diag::Condition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::options::Value;
 use crate::exec::step::TimerAct;
 use crate::exec::step::{Event, Sync};
 use crate::machine::table::axis_key;
@@ -242,6 +243,19 @@ pub(super) fn init_macros(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()>
     Ok(())
 }
 
+/// A file name, as a word or a text.
+fn name_in(decoder: &Decoder, value: &ItemValue) -> Outcome<String> {
+    let at = match value {
+        ItemValue::Name(name) => return Ok(name.text.to_string()),
+        ItemValue::Expr(expr) => match decoder.value(expr)? {
+            Value::Text(text) => return Ok(text.to_string()),
+            Value::Number(_) => expr.span,
+        },
+        ItemValue::List(group) => group.span,
+    };
+    Err(Fault::new(Condition::TokenUnknown, "a file name is expected", at))
+}
+
 /// `#FILE NAME [G80="x.nc" M6="z.nc" D="d.nc" MSG="y"]`.
 pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
@@ -262,26 +276,7 @@ pub(super) fn file_name(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             return Err(Fault::new(Condition::FileNameTwice, text, key.span));
         }
         written.push(key);
-        let file = match value {
-            ItemValue::Name(name) => name.text.to_string(),
-            ItemValue::Expr(expr) => match decoder.value(expr)? {
-                crate::exec::options::Value::Text(text) => text.to_string(),
-                crate::exec::options::Value::Number(_) => {
-                    return Err(Fault::new(
-                        Condition::TokenUnknown,
-                        "a file name is expected",
-                        expr.span,
-                    ));
-                }
-            },
-            ItemValue::List(group) => {
-                return Err(Fault::new(
-                    Condition::TokenUnknown,
-                    "a file name is expected",
-                    group.span,
-                ));
-            }
-        };
+        let file = name_in(decoder, value)?;
         let number = key.text.strip_prefix('G').and_then(|n| n.parse().ok());
         // an empty text restores the default of the lists: no program (P-CHAN-00118)
         let file = Some(file).filter(|file| !file.trim_ascii().is_empty());

@@ -166,16 +166,7 @@ impl Area {
                 self.excess(point)
             }
         };
-        // upper bound for the speed of the point along the path, hence for the change of its distance
-        let mut tangent = path.start().clone();
-        path.tangent(0.0, &mut tangent);
-        let speed = self
-            .axes
-            .iter()
-            .map(|axis| tangent[*axis] * tangent[*axis])
-            .sum::<f64>()
-            .sqrt()
-            .max(1.0);
+        let speed = self.speed_bound(path);
         let least = RESOLUTION_MM / speed;
         let mut found = None;
         let mut open = vec![(0.0, length)];
@@ -199,6 +190,14 @@ impl Area {
             return Some(Violation { point_mm: end, at_end: true });
         }
         found
+    }
+
+    /// Upper bound for the speed of the monitored point along a path, hence for the change of its distance.
+    fn speed_bound(&self, path: &Path) -> f64 {
+        let mut tangent = path.start().clone();
+        path.tangent(0.0, &mut tangent);
+        let squares = self.axes.iter().map(|axis| tangent[*axis] * tangent[*axis]);
+        squares.sum::<f64>().sqrt().max(1.0)
     }
 
     /// Whether a path stays between the limits of a workspace along its extent.

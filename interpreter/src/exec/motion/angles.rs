@@ -80,18 +80,26 @@ fn corner_of_lines(
     Ok([here[0] + to_corner * d[0], here[1] + to_corner * d[1]])
 }
 
+impl ContourLines {
+    /// A block without an angle; if it moves, an open first line has ended without its second one.
+    fn ends_before(&mut self, words: &Words<'_>) -> Outcome<()> {
+        let moves = !words.axes.is_empty() || words.group(Group::Path).is_some();
+        match self.open.take_if(|_| moves) {
+            Some(line) if !line.refused => {
+                let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
+                Err(Fault::new(Condition::ContourLineOpen, text, Span::default()))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 impl Decoder {
     /// Applies `#ANG` to the current block.
     pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");
         let Some((_, angle, span)) = angle else {
-            let moves = !words.axes.is_empty() || words.group(Group::Path).is_some();
-            if let Some(line) = self.motion.contour_line.open.take_if(|_| moves)
-                && !line.refused
-            {
-                let text = "the contour line before it has neither a coordinate nor a second line with #ANG";
-                return Err(Fault::new(Condition::ContourLineOpen, text, Span::default()));
-            }
+            self.motion.contour_line.ends_before(words)?;
             return Ok(ContourLine::Single);
         };
         let span = *span;

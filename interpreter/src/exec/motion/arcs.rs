@@ -9,6 +9,7 @@ use crate::exec::block::modal::Modal;
 use crate::exec::contour::local_ends;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::arc::{self, Arc, ArcError};
 use crate::exec::geometry::coordinates::Target;
@@ -68,6 +69,26 @@ fn defined_once(words: &Words<'_>, has_centre: bool) -> Outcome<()> {
     }
 }
 
+impl Geometry {
+    /// The axes of a plane given by its main axes.
+    fn axes_of_plane(&self, main: [usize; 2], span: Span) -> Outcome<[usize; 2]> {
+        let axis = |m: usize| {
+            self.coordinates.main_axis(m).ok_or_else(|| {
+                let text = "the plane of the arc has no axis in the channel";
+                Fault::new(Condition::AxisOrCommandExpected, text, span)
+            })
+        };
+        Ok([axis(main[0])?, axis(main[1])?])
+    }
+
+    /// Travel in mm between two positions along the main axis that is not in a plane.
+    fn height_over(&self, plane: [usize; 2], [start, end]: [&AxisVec; 2]) -> f64 {
+        let normal =
+            (0..3).find(|i| !plane.contains(i)).and_then(|m| self.coordinates.main_axis(m));
+        normal.map_or(0.0, |axis| end[axis] - start[axis])
+    }
+}
+
 impl Decoder {
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
         let from = &self.motion.independent.on_path(from);
@@ -83,13 +104,7 @@ impl Decoder {
             Some(tilt) => local_ends(tilt, from, &target),
             None => (from.clone(), target.clone()),
         };
-        let axis = |m: usize| {
-            self.geometry.coordinates.main_axis(m).ok_or_else(|| {
-                let text = "the plane of the arc has no axis in the channel";
-                Fault::new(Condition::AxisOrCommandExpected, text, span)
-            })
-        };
-        let plane = [axis(image[0])?, axis(image[1])?];
+        let plane = self.geometry.axes_of_plane(image, span)?;
         let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
         let (s, e) = (in_plane(&start), in_plane(&end));
         let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
@@ -122,10 +137,7 @@ impl Decoder {
             return Err(Fault::new(Condition::CentreTooFar, text, at));
         }
         if let Some((pitch, at)) = words.centre[main[2]].filter(|(pitch, _)| *pitch != 0.0) {
-            let normal = (0..3)
-                .find(|i| !image.contains(i))
-                .and_then(|m| self.geometry.coordinates.main_axis(m));
-            let height = normal.map_or(0.0, |axis| end[axis] - start[axis]);
+            let height = self.geometry.height_over(image, [&start, &end]);
             let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
             if height == 0.0 {
                 let text = "a pitch has no meaning without travel along the third axis";

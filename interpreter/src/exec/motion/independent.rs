@@ -155,6 +155,20 @@ impl Words {
         }
         Ok(())
     }
+
+    /// The speed of the motion, by G00, or by G01 and its feed or time.
+    fn speed_of_motion(&self, span: Span) -> Outcome<IndependentSpeed> {
+        match (self.rapid, self.speed) {
+            (Some(true), None) => Ok(IndependentSpeed::Rapid),
+            (Some(false), Some((speed, _))) => Ok(speed),
+            (Some(true), Some((_, at))) => Err(wrong("G00 with a feed or a time", at)),
+            (None, _) => Err(wrong("G00 or G01 is missing", span)),
+            (Some(false), None) => {
+                let text = "FEED, TIME or FEED_MAX_WEIGHT of G01 is missing";
+                Err(wrong(text, span))
+            }
+        }
+    }
 }
 
 impl Geometry {
@@ -191,22 +205,9 @@ impl Decoder {
         self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
         self.motion.areas.moves_unwatched(axis, &self.names, span)?;
         self.moves_outside_curves(axis, span)?;
-        let words = Words::read(self, axis, rest)?;
-        for function in words.functions {
-            match function {
-                Event::MFunction { number, .. } => self.motion.takes_time(
-                    Function::M(number),
-                    &self.machine.channel,
-                    &mut self.contour,
-                ),
-                Event::HFunction { number, .. } => self.motion.takes_time(
-                    Function::H(number),
-                    &self.machine.channel,
-                    &mut self.contour,
-                ),
-                _ => {}
-            }
-            self.contour.event(function);
+        let mut words = Words::read(self, axis, rest)?;
+        for function in std::mem::take(&mut words.functions) {
+            self.independent_function(function);
         }
         let Some((position, at)) = words.position else {
             if rest.is_empty() || words.speed.is_some() || words.rapid.is_some() {
@@ -215,34 +216,12 @@ impl Decoder {
             return Ok(());
         };
         self.moves_untransformed(axis, span)?;
-        let speed = match (words.rapid, words.speed) {
-            (Some(true), None) => IndependentSpeed::Rapid,
-            (Some(false), Some((speed, _))) => speed,
-            (Some(true), Some((_, at))) => return Err(wrong("G00 with a feed or a time", at)),
-            (None, _) => return Err(wrong("G00 or G01 is missing", span)),
-            (Some(false), None) => {
-                let text = "FEED, TIME or FEED_MAX_WEIGHT of G01 is missing";
-                return Err(wrong(text, span));
-            }
-        };
+        let speed = words.speed_of_motion(span)?;
         if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
         let start = self.geometry.coordinates.target().clone();
-        let relative = words.relative.unwrap_or(!self.modal.absolute);
-        let way = position
-            * self.modal.axis_unit(&self.machine.axes[axis])
-            * self.geometry.scale.factor(axis);
-        let offset_mm = self.geometry.included_offset(axis, "INDP", words.offsets, &self.names)?;
-        let target = if relative {
-            start[axis] + way
-        } else if self.machine.axes[axis].is_modulo() {
-            // always the shortest way (208606347)
-            let range_deg = self.machine.axes[axis].modulo_deg();
-            modulo::unwrapped(way + offset_mm, None, start[axis], range_deg)
-        } else {
-            way + offset_mm
-        };
+        let target = self.independent_target(axis, &words, position, start[axis])?;
         self.geometry.coordinates.place(axis, target);
         self.check_limit(axis, target, at);
         let slope = words.slope.unwrap_or(self.machine.channel.dynamics.slope);
@@ -268,6 +247,43 @@ impl Decoder {
         };
         list.push(axis);
         Ok(())
+    }
+
+    /// A function of the bracket of an independent axis.
+    fn independent_function(&mut self, function: Event) {
+        let timed = match function {
+            Event::MFunction { number, .. } => Some(Function::M(number)),
+            Event::HFunction { number, .. } => Some(Function::H(number)),
+            _ => None,
+        };
+        if let Some(timed) = timed {
+            self.motion.takes_time(timed, &self.machine.channel, &mut self.contour);
+        }
+        self.contour.event(function);
+    }
+
+    /// Target of an independent axis in mm (deg) for its programmed position.
+    fn independent_target(
+        &self,
+        axis: usize,
+        words: &Words,
+        position: f64,
+        start: f64,
+    ) -> Outcome<f64> {
+        let relative = words.relative.unwrap_or(!self.modal.absolute);
+        let way = position
+            * self.modal.axis_unit(&self.machine.axes[axis])
+            * self.geometry.scale.factor(axis);
+        let offset_mm = self.geometry.included_offset(axis, "INDP", words.offsets, &self.names)?;
+        Ok(if relative {
+            start + way
+        } else if self.machine.axes[axis].is_modulo() {
+            // always the shortest way (208606347)
+            let range_deg = self.machine.axes[axis].modulo_deg();
+            modulo::unwrapped(way + offset_mm, None, start, range_deg)
+        } else {
+            way + offset_mm
+        })
     }
 
     /// 120697 for a positioning axis within a spline, K-0154 for one while polynomial contouring is active (208606347).

@@ -21,6 +21,19 @@ use crate::syntax::ast::{Jump, Span};
 use kontur_motion::block::Feed;
 
 impl Measuring {
+    /// What a missing signal is; `None`: not reported. `is_error`: an error by the channel list.
+    fn missing_signal(&self, interrupts: bool, is_error: bool) -> Option<Severity> {
+        let of_program = self.missing_is_error;
+        if self.kind == 2 || of_program.unwrap_or(is_error) {
+            Some(Severity::Error)
+        } else if interrupts || self.kind == 7 || of_program.is_some() {
+            // the program provides for it, or its signal is not that of the probe
+            None
+        } else {
+            Some(Severity::Note)
+        }
+    }
+
     /// Functions that belong to other measuring types; `through`: with G106.
     fn type_fits(&self, g: &GWord, through: bool) -> Outcome<()> {
         let kind = self.kind;
@@ -91,16 +104,8 @@ impl Decoder {
         self.sync(Sync::Measured { through, stops });
         let coordinates = &self.geometry.coordinates;
         let axes = 0..self.machine.axes.len();
-        let of_program = self.motion.measuring.missing_is_error;
         let of_list = self.machine.channel.measuring.missing_signal_is_error;
-        let missing = if kind == 2 || of_program.unwrap_or(of_list) {
-            Some(Severity::Error)
-        } else if interrupts || kind == 7 || of_program.is_some() {
-            // the program provides for it, or its signal is not that of the probe
-            None
-        } else {
-            Some(Severity::Note)
-        };
+        let missing = self.motion.measuring.missing_signal(interrupts, of_list);
         self.motion.measuring.pending = Some(Box::new(Pending {
             axes: words.axes.iter().map(|(axis, _, _)| *axis).collect(),
             target: axes.map(|axis| coordinates.programmed(axis)).collect(),

@@ -54,6 +54,31 @@ impl OscArguments {
         .into_iter()
         .find_map(|(name, span)| Some((name, span?)))
     }
+
+    /// Both reversal positions as programmed, with their places; `None` if they are not defined.
+    fn reversal(&self) -> Option<[(f64, Span); 2]> {
+        match (self.first, self.second, self.zero, self.excursion) {
+            (Some(first), Some(second), None, None) => Some([first, second]),
+            (None, None, Some((zero, at)), Some((excursion, second_at))) => {
+                Some([(zero - excursion, at), (zero + excursion, second_at)])
+            }
+            _ => None,
+        }
+    }
+
+    /// Speed of a stroke, with a feed rate in `feed`; `None` if none is programmed.
+    fn speed(&self, feed: f64, span: Span) -> Outcome<Option<IndependentSpeed>> {
+        Ok(match (self.feed, self.frequency, self.time) {
+            (Some((f, _)), None, None) if f > 0.0 => Some(IndependentSpeed::Feed(f * feed)),
+            (None, Some((f, _)), None) => Some(IndependentSpeed::Time(0.5 / f)),
+            (None, None, Some((t, _))) => Some(IndependentSpeed::Time(0.5 * t)),
+            (Some(_) | None, None, None) => None,
+            _ => {
+                let text = "two of FEED, FREQ and TIME";
+                return Err(Fault::new(Condition::IndependentSyntax, text, span));
+            }
+        })
+    }
 }
 
 impl Decoder {
@@ -102,19 +127,11 @@ impl Decoder {
         let of_axis = |condition, text: String, at| {
             Fault::new(condition, text, at).with(|d| d.axis(number, name.clone()))
         };
-        let positions = match (keys.first, keys.second, keys.zero, keys.excursion) {
-            (Some(first), Some(second), None, None) => [first, second],
-            (None, None, Some((zero, at)), Some((excursion, second_at))) => {
-                [(zero - excursion, at), (zero + excursion, second_at)]
-            }
-            _ => {
-                let text = format!(
-                    "axis {name}: 1ST_POS and 2ND_POS, or ZERO_POS and EXCUR, are required"
-                );
-                return Err(of_axis(Condition::NoOscillation, text, span));
-            }
+        let Some([(first, at), (second, second_at)]) = keys.reversal() else {
+            let text =
+                format!("axis {name}: 1ST_POS and 2ND_POS, or ZERO_POS and EXCUR, are required");
+            return Err(of_axis(Condition::NoOscillation, text, span));
         };
-        let [(first, at), (second, second_at)] = positions;
         if (second - first).abs() <= 0.0 {
             let text = format!("axis {name}: both reversal positions are {first}");
             return Err(of_axis(Condition::NoOscillation, text, second_at));
@@ -123,18 +140,9 @@ impl Decoder {
         let offset_mm = self.geometry.included_offset(axis, "OSC", keys.offsets, &self.names)?;
         let reversal_mm = [first, second].map(|position| position * unit + offset_mm);
         let feed = self.machine.channel.feed.unit_mm_min / 60.0 * unit;
-        let speed = match (keys.feed, keys.frequency, keys.time) {
-            (Some((f, _)), None, None) if f > 0.0 => IndependentSpeed::Feed(f * feed),
-            (None, Some((f, _)), None) => IndependentSpeed::Time(0.5 / f),
-            (None, None, Some((t, _))) => IndependentSpeed::Time(0.5 * t),
-            (Some(_) | None, None, None) => {
-                let text = format!("axis {name}: the oscillation has no feed");
-                return Err(of_axis(Condition::OscillationFeed, text, span));
-            }
-            _ => {
-                let text = "two of FEED, FREQ and TIME";
-                return Err(Fault::new(Condition::IndependentSyntax, text, span));
-            }
+        let Some(speed) = keys.speed(feed, span)? else {
+            let text = format!("axis {name}: the oscillation has no feed");
+            return Err(of_axis(Condition::OscillationFeed, text, span));
         };
         if let Some(limits) = limited_stroke(&self.machine, axis, reversal_mm, speed) {
             // 50487

@@ -110,7 +110,7 @@ impl Decoder {
         };
         let rapid = feed == Feed::Rapid;
         let full = words.has(Act::FullOverride);
-        let feed_ratio = if full { 1.0 } else { self.override_of(&path, rapid) };
+        let feed_ratio = if full { 1.0 } else { self.motion.override_of(&path, rapid) };
         let rounds = self.rounds_corner(words, span);
         let early_once = words.has(Act::EarlyBrakingOnce);
         let late_braking = self.modal.brakes_late(early_once, span, &mut self.report);
@@ -225,15 +225,6 @@ impl Decoder {
         LinePath::new(start, end, self.motion.limits.feed_axes()).map(Path::Line)
     }
 
-    /// The override of the axes that move.
-    fn override_of(&self, path: &Path, rapid: bool) -> f64 {
-        let moves = |axis: &usize| {
-            path.extent(*axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
-        };
-        let moved = (0..self.motion.limits.feed_axes().len()).filter(moves);
-        self.motion.overrides.ratio(rapid, moved)
-    }
-
     /// Whether the corner at the end of the block is rounded by contouring. What an exact stop or contouring does to HSC is noted.
     fn rounds_corner(&mut self, words: &Words<'_>, span: Span) -> bool {
         let stops = self.modal.exact_stop || words.has(Act::ExactStopOnce);
@@ -243,7 +234,7 @@ impl Decoder {
                 if self.modal.contouring { Contouring::Modal } else { Contouring::Once };
         }
         if stops {
-            self.spline_stops(span);
+            self.contour.spline_stops(span, &mut self.report);
         }
         if rounds && self.contour.hsc.contour().is_some() {
             let text = "G61, G261 and #HSC [OPMODE=1] at once: the corner is rounded by #CONTOUR MODE, not within CONTERROR";
@@ -348,15 +339,5 @@ impl Decoder {
         for fault in self.limits_of_compensated() {
             self.report.note(Box::new(fault));
         }
-    }
-    /// An exact stop ends a B-spline: K-0111 unless AUTO_OFF_G60 asks for it.
-    pub(super) fn spline_stops(&mut self, span: Span) {
-        if self.contour.hsc.off_at_stop || self.contour.hsc.spline().is_none() {
-            return;
-        }
-        let text = "an exact stop in a B-spline ends it here, as with AUTO_OFF_G60";
-        let fault = Fault::new(Condition::Fallback, text, span)
-            .hint("without this key, the default, it does not end the spline of the control");
-        self.report.note_once("AUTO_OFF_G60", fault);
     }
 }

@@ -17,7 +17,7 @@ use super::overrides::Overrides;
 use super::spindles::{self, Spindle};
 use crate::diag::Condition;
 use crate::exec::block::modal::{FeedWord, Modal};
-use crate::exec::contour::Corner;
+use crate::exec::contour::{Contour, Corner};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::step::{Event, SourceRef};
@@ -27,6 +27,7 @@ use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{
     Block, ChannelDynamics, ContourSettings, Feed, Slope, SplineSettings, Tolerance,
 };
+use kontur_motion::path::Path;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -130,6 +131,22 @@ impl MotionState {
             return Arc::new(self.limits.measuring(machine, modal, beside));
         }
         self.dynamics(machine, modal, rapid)
+    }
+
+    /// Outputs the feedforward of a spindle of the machine.
+    pub(in crate::exec) fn spindle_feedforward(&self, spindle: usize, contour: &mut Contour) {
+        if let Some(event) = self.spindles[spindle].feedforward_event() {
+            contour.event(event);
+        }
+    }
+
+    /// The override of the axes that move.
+    pub(super) fn override_of(&self, path: &Path, rapid: bool) -> f64 {
+        let moves = |axis: &usize| {
+            path.extent(*axis).is_none_or(|(low, high)| low.to_bits() != high.to_bits())
+        };
+        let moved = (0..self.limits.feed_axes().len()).filter(moves);
+        self.overrides.ratio(rapid, moved)
     }
 
     /// Active dynamics in feed or rapid blocks.

@@ -86,26 +86,10 @@ impl Decoder {
             }
             None => None,
         };
+        let without = suppressed.as_ref().map(|(kinds, _)| &kinds[..]);
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
-                let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
-                let turn = if self.machine.channel.language.shortest_way {
-                    None
-                } else {
-                    turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?
-                };
-                let offset = match &suppressed {
-                    Some((kinds, _)) => {
-                        self.geometry.coordinates.offset_without(kinds, target.axis)
-                    }
-                    None => self.geometry.coordinates.active_offset(target.axis),
-                };
-                // the distance is measured in the coordinate: a mirrored axis turns in the opposite direction
-                let bare = start[target.axis] - offset;
-                let mirrored = self.geometry.coordinates.mirrored(target.axis);
-                let from = if mirrored { -bare } else { bare };
-                let range_deg = self.machine.axes[target.axis].modulo_deg();
-                target.value = modulo::unwrapped(target.value, turn, from, range_deg);
+                target.value = self.unwrapped(target, words, start[target.axis], without)?;
             }
         }
         match suppressed {
@@ -124,9 +108,34 @@ impl Decoder {
         self.follow_turning_centre(&start);
         Ok(start)
     }
-}
 
-impl Decoder {
+    /// The coordinate of a modulo axis that is reached in the programmed direction from its position; `without`: suppressed
+    /// offsets.
+    fn unwrapped(
+        &self,
+        target: &Target,
+        words: &Words<'_>,
+        position: f64,
+        without: Option<&[OffsetKind]>,
+    ) -> Outcome<f64> {
+        let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
+        let turn = if self.machine.channel.language.shortest_way {
+            None
+        } else {
+            turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?
+        };
+        let offset = match without {
+            Some(kinds) => self.geometry.coordinates.offset_without(kinds, target.axis),
+            None => self.geometry.coordinates.active_offset(target.axis),
+        };
+        // the distance is measured in the coordinate: a mirrored axis turns in the opposite direction
+        let bare = position - offset;
+        let mirrored = self.geometry.coordinates.mirrored(target.axis);
+        let from = if mirrored { -bare } else { bare };
+        let range_deg = self.machine.axes[target.axis].modulo_deg();
+        Ok(modulo::unwrapped(target.value, turn, from, range_deg))
+    }
+
     /// Diameters must be neither negative nor mirrored.
     ///
     /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.

@@ -12,7 +12,7 @@ use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::groups::is_cycle_call;
 use crate::exec::commands::is_known;
 use crate::source::Position;
-use crate::syntax::ast::{Block, Body, CallKind, CodeNumber, WordKind};
+use crate::syntax::ast::{Block, Body, CallKind, CodeNumber, Command, WordKind};
 
 /// Maximum number of faults reported for parts that were not reached.
 const REPORTS_MAX: usize = 20;
@@ -90,9 +90,7 @@ impl Executor {
             self.calls_more |= self.may_open(&block);
             if let (Body::Command(command), Look::Block) = (&block.body, look)
                 && !is_known(command)
-                && !["VAR", "ENDVAR", "IF", "ELSE", "ENDIF"].iter().any(|name| command.is(name))
-                && !command.is("COMMENT BEGIN")
-                && !command.is("COMMENT END")
+                && !is_structure_command(command)
             {
                 let text = format!("unknown command #{}", command.name());
                 let place = self.files.locate(file, at, command.span, &self.decoder.calls.macros);
@@ -202,6 +200,13 @@ impl Silence {
         let (_, end) = self.ends.get(before.checked_sub(1)?)?;
         (*end >= at.offset).then_some(*end)
     }
+}
+
+/// Whether a command structures the text and has no row of its own.
+fn is_structure_command(command: &Command) -> bool {
+    ["VAR", "ENDVAR", "IF", "ELSE", "ENDIF", "COMMENT BEGIN", "COMMENT END"]
+        .iter()
+        .any(|name| command.is(name))
 }
 
 /// Turns a diagnostic into a warning that names its position.

@@ -88,48 +88,6 @@ fn sequences_begin_at_the_first_block_of_their_number() {
     }
 }
 
-/// G functions without values are restored at the end of a cycle, those with values or axes remain (P-CHAN-00210, 476043659).
-#[test]
-fn what_a_cycle_changes() {
-    let table = "V.G.NP[1].V.X=100\nV.G.NP[2].V.X=10\nF1000\nG54\n";
-    let end = |settings: &[&str], before: &str, cycle: &str, after: &str| {
-        let files = [
-            ("main.nc", format!("{table}{before}\nL CYCLE [NAME=c.nc]\n{after}\nM30\n")),
-            ("c.nc", format!("{cycle}\nM17\n")),
-            ("d.nc", "G55 G91\nM17\n".to_owned()),
-        ];
-        let files: Vec<(&str, &str)> = files.iter().map(|(n, t)| (*n, t.as_str())).collect();
-        let run = listed(settings, &files);
-        assert!(run.ids().is_empty(), "{:?}", super::shown(&run.diagnostics));
-        run.end
-    };
-    let x = |before: &str, cycle: &str| end(&[], before, cycle, "G71 X1 Y2")[0];
-    assert_eq!(x("", "G55"), 101.0);
-    assert_eq!(x("", "G53"), 101.0);
-    assert_eq!(x("G159=2", "G54"), 11.0);
-    assert_eq!(x("", "G159=2"), 11.0);
-    assert_eq!(x("", "G92 X5"), 106.0);
-    assert_eq!(x("G71", "G21"), 101.0);
-    assert_eq!(x("G71 G21", "G20"), 99.0);
-    assert_eq!(x("G71", "G351 X-1"), 99.0);
-    assert_eq!(x("", "#RETAIN CYCLE CHANGES\nG55"), 11.0);
-    // internal to the inner cycle
-    assert_eq!(x("", "#RETAIN CYCLE CHANGES\nL CYCLE [NAME=d.nc]\nG55"), 11.0);
-    assert_eq!(x("", "G55\nL CYCLE [NAME=d.nc]"), 101.0);
-    // a system that remains active keeps its offset
-    assert_eq!(x("#CS ON [1,0,0]", "G55"), 102.0);
-    assert_eq!(x("", "#CS ON [1,0,0]\nG55"), 112.0);
-    assert_eq!(end(&["channel.cycle_changes_modal=1"], "", "G55 G91", "X1")[0], 1.0);
-    // the variable is the parameter
-    assert_eq!(
-        end(&["channel.cycle_changes_modal=1"], "V.G.CYCLE_CHANGES_MODAL=0", "G55", "X1")[0],
-        101.0
-    );
-    assert_eq!(x("V.G.CYCLE_CHANGES_MODAL=1", "G55"), 11.0);
-    assert_eq!(x("", "G55\nV.G.CYCLE_CHANGES_MODAL=1"), 11.0);
-    assert_eq!(x("P1=V.G.CYCLE_CHANGES_MODAL G92 XP1", "G55"), 101.0);
-}
-
 /// Source: channel parameters 476043659. G135 and G151 have no values; G136 has axis names and stays.
 #[test]
 fn the_end_of_a_cycle_gives_feedforward_and_splines_back() {

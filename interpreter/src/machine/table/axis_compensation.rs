@@ -2,7 +2,8 @@
 //! says so, see [`inert`](crate::machine); their other values are read and ignored.
 
 use super::param::parameters;
-use super::row::{Bound, DriveType, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{DriveType, axis};
 
 parameters! {
     axis("P-AXIS-00021", "lr_param.anwahl_losekomp", Raw::Uns16, "backlash compensation: 0 off, 1 last motion in the positive, 2 in the negative direction; not simulated")

@@ -1,7 +1,8 @@
 //! Axis lists: position controller, position and lag monitoring, measuring systems.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, DriveType, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, Default, DriveType, axis};
 use crate::diag::Condition;
 
 /// Names of P-AXIS-00320.

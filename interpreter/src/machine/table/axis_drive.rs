@@ -1,7 +1,8 @@
 //! Axis lists: simulated drive, scaling to the format of a drive, feedforward.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, DriveType, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, DriveType, axis};
 use crate::diag::Condition;
 
 /// Kinds of feedforward (P-AXIS-00223).

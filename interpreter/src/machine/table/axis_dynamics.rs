@@ -1,7 +1,8 @@
 //! Axis lists: velocity, acceleration and ramp times.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, Default, axis};
 use crate::diag::Condition;
 
 parameters! {

@@ -1,7 +1,8 @@
 //! Axis lists: standard and HSC filters, FIR filter, filter of the additional interface.
 
 use super::param::{Number, Param, Switch, Whole, parameters};
-use super::row::{Bound, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::axis;
 use kontur_filters::fir::FirConfig;
 
 /// Prototypes (P-AXIS-00153).

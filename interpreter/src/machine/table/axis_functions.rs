@@ -1,7 +1,8 @@
 //! Axis lists: modulo calculation, monitoring of the range, homing, gantries, collisions and spindles.
 
 use super::param::parameters;
-use super::row::{Bound, Default, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{Default, axis};
 
 parameters! {
     axis("P-AXIS-00043", "kenngr.coll_check_ax_nr", Raw::Uns32, "logical number of the axis from which this axis keeps the distance P-AXIS-00045, 0: none; not simulated")

@@ -1,7 +1,8 @@
 //! Axis lists: head, general data, limits of the range, monitors of the set position.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, DriveType, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, Default, DriveType, axis};
 use crate::diag::Condition;
 
 /// Axis types (P-AXIS-00018).

@@ -1,7 +1,8 @@
 //! Axis lists: Vibration Guard and Improved Position Control.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, DriveType, Raw, axis};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, Default, DriveType, axis};
 use crate::diag::Condition;
 use kontur_filters::vib_guard::VibGuardSettings;
 

@@ -1,7 +1,8 @@
 //! Channel lists.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, Raw, chan};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, Default, chan};
 use super::start_up::FUNCTIONS;
 use crate::diag::Condition;
 

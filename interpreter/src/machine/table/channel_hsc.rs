@@ -1,7 +1,8 @@
 //! Channel lists: `hsc.*`, the settings of `#HSC` at program start.
 
 use super::param::parameters;
-use super::row::{Bound, Raw, chan};
+use super::raw::{Bound, Raw};
+use super::row::chan;
 
 parameters! {
     chan("P-CHAN-00122", "hsc.bspline.path_deviation", Raw::Real64, "PATH_DEV of #HSC [BSPLINE] at program start; 0: not monitored")

@@ -1,7 +1,8 @@
 //! Lists of external variables: index i is the number of a variable or of a type.
 
 use super::param::parameters;
-use super::row::{Bound, Default, Raw, external};
+use super::raw::{Bound, Raw};
+use super::row::{Default, external};
 
 parameters! {
     external("P-EXTV-00010", "number_used_variables", Raw::Uns16, "number of variables: those with a higher index are not available")

@@ -1,7 +1,8 @@
 //! `kontur.lis`: parameters beyond the vendor's lists. The index of `kontur.axis[i]` is the logical axis number.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Default, Raw, own};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, Default, own};
 use crate::diag::Condition;
 
 /// Models of drive and mechanics.

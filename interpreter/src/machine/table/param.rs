@@ -3,7 +3,8 @@
 //! Every room may name a constant in a message; its value is read in `machine` only.
 
 use super::indices::{Indices, with_indices};
-use super::row::{Default, Raw, Row};
+use super::raw::Raw;
+use super::row::{Default, Row};
 use crate::diag::Named;
 use std::marker::PhantomData;
 

@@ -1,7 +1,8 @@
 //! Start-up lists.
 
 use super::param::parameters;
-use super::row::{Bound, Default, Raw, stup};
+use super::raw::{Bound, Raw};
+use super::row::{Default, stup};
 
 /// Names of [`LOOK_AHEAD`] for the size of the look-ahead.
 pub(in crate::machine) const LOW: u32 = 0x2;

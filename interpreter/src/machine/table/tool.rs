@@ -1,7 +1,8 @@
 //! Tool lists: the data that D selects. Index i is the number of the D word.
 
 use super::param::parameters;
-use super::row::{Bound, Raw, tool};
+use super::raw::{Bound, Raw};
+use super::row::tool;
 
 parameters! {
     tool("P-TOOL-00001", "wz[i].typ", Raw::Uns16, "0 milling, 1 turning, 2 grinding, 3 wire; #OTC needs 2")

@@ -1,7 +1,8 @@
 //! Zero-offset lists: index i is the group, 1 for G54 to 6 for G59, and the number of G159.
 
 use super::param::parameters;
-use super::row::{Bound, Correction, Raw, zero};
+use super::raw::{Bound, Raw};
+use super::row::{Correction, zero};
 use crate::diag::Condition;
 
 parameters! {

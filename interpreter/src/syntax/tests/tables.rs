@@ -43,43 +43,22 @@ fn refused_lines() {
 
 #[test]
 fn program_heads() {
-    for (line, local, name, text) in [
-        ("%L SQUARE ; remark", true, Some("SQUARE"), "SQUARE"),
-        ("%LSQUARE", false, Some("LSQUARE"), "LSQUARE"),
-        ("%MAIN", false, Some("MAIN"), "MAIN"),
-        ("% name (x)", false, Some("name"), "name"),
-        ("% tool 5, \"x\"", false, Some("tool"), "tool 5, \"x\""),
-        ("%L", false, Some("L"), "L"),
-        ("%", false, None, ""),
-    ] {
+    for (line, expected) in rows(include_str!("../../../tests/syntax/heads.txt")) {
         let Body::ProgramHead(head) = accepted(line).body else { panic!("{line}") };
-        let found = (head.local, head.name.as_ref().map(|n| &*n.text), &*head.text);
-        assert_eq!(found, (local, name, text), "{line}");
+        let local = if head.local { "local " } else { "" };
+        let name = head.name.as_ref().map_or("", |n| &*n.text);
+        assert_eq!(format!("{local}{name}: {}", head.text).trim_end(), expected, "{line}");
     }
 }
 
 #[test]
 fn decoration_leaves_no_trace() {
-    for group in [
-        &["#FILTER ON[HSC]", "#FILTER ON [HSC]", "#filter   on\t[ HSC ]"][..],
-        &[
-            "#VIB GUARD ON [MODE=2 FREQ=40 AX_DEV=0.01]",
-            "#VIB GUARD ON [MODE 2,FREQ 40, AX_DEV=0.01]",
-            "#VIB GUARD ON[MODE =2, FREQ= 40,AX_DEV .01,]",
-        ],
-        &["G131 50", "G131=50", "G131 = 50", "G131=[50]", "G131 +50"],
-        &["G1X5", "G01 X 5", "g1x=5.", "G1 X[5]"],
-        &["G1 X--5", "G1 X-[-5]"],
-        &["P1=1||2", "P1=1 OR 2"],
-        &["P1=1&&P2", "P1=1 and P2"],
-    ] {
-        let first = shape(&accepted(group[0]));
-        for line in group {
-            let found = shape(&accepted(line));
-            // the lines differ in length: only the spans of the block and similar ones do, which `shape` drops
-            assert_eq!(found, first, "{line}");
-        }
+    for group in include_str!("../../../tests/syntax/alike.txt").lines().skip(1) {
+        // the lines differ in length: only the spans of the block and similar ones do, which `shape` drops
+        let shapes: Vec<_> = group.split('\t').map(|line| shape(&accepted(line))).collect();
+        assert!(shapes.len() > 1 && shapes.iter().all(|found| *found == shapes[0]), "{group}");
     }
+    assert_eq!(shape(&accepted("#FILTER ON [HSC]")), shape(&accepted("#FILTER ON\t[HSC]")));
 }
 
 #[test]
@@ -96,48 +75,21 @@ fn precedence() {
 }
 
 #[test]
-fn messages_say_what_was_expected() {
-    for (line, expected) in [
-        ("X", "the block ends too early, expected a value"),
-        ("X[1+*2]", "unexpected `*`, expected a value"),
-        ("#SLOPE [TYPE=", "the block ends too early, expected a value"),
-        ("#SLOPE [TYPE= ", "the block ends too early, expected a value"),
-        ("#A [B=[1,2]+3]", "a list in brackets does not have a value"),
-    ] {
+fn messages_and_hints_fit_the_mistake() {
+    for (line, expected) in rows(include_str!("../../../tests/syntax/said.txt")) {
         let (_, diagnostics) = parse(line);
-        assert!(diagnostics[0].text.starts_with(expected), "{line}: {}", diagnostics[0].text);
-    }
-}
-
-#[test]
-fn hints_fit_the_mistake() {
-    for (line, expected) in [
-        ("G01 X[2*[3+1] F100", "the bracket of `X[2*[3+1]`"),
-        ("(\u{e4}) G01 X1 Y[2 F100", "the bracket of `Y[2`"),
-        ("X2*3] F100", "the ] of `X2*3]` closes no bracket"),
-        ("#SLOPE TYPE=TRAPEZ", "#SLOPE [TYPE=TRAPEZ]"),
-        ("#MSG [\"a]", "close the text"),
-        ("G01 X F100", "X10.5"),
-        ("G01 X10 F1000 remark", "remarks begin with ;"),
-        ("P1=1)", "grouped by [ ]"),
-        ("N1.5", "integers: N1"),
-        ("X1 5", "address and a value"),
-    ] {
-        let (_, diagnostics) = parse(line);
-        let hint = diagnostics[0].hint.as_deref().unwrap_or_default();
-        assert!(hint.contains(expected), "{line}: {hint}");
+        let (text, hint) = (&diagnostics[0].text, diagnostics[0].hint.as_deref().unwrap_or(""));
+        let fits = match expected.strip_prefix("hint: ") {
+            Some(part) => hint.contains(part),
+            None => text.starts_with(expected),
+        };
+        assert!(fits, "{line}: {text} ({hint})");
     }
 }
 
 #[test]
 fn the_rest_of_a_block_with_errors_is_used() {
-    for (line, expected) in [
-        ("N5 G1 X Y10 Z[1+*2] F5", "N5 G1 Y=10 F=5"),
-        ("N5 X1ä Y2", "N5 X=1 Y=2"),
-        ("N5 5=3 P1=5", "N5 P1=5"),
-        ("N7 $IF = 5", "N7"),
-        ("N7 #SLOPE [TYPE=", "N7"),
-    ] {
+    for (line, expected) in rows(include_str!("../../../tests/syntax/rest.txt")) {
         let (block, diagnostics) = parse(line);
         assert!(!diagnostics.is_empty(), "{line}");
         assert_eq!(block.to_string(), expected, "{line}");
@@ -146,38 +98,19 @@ fn the_rest_of_a_block_with_errors_is_used() {
 }
 
 #[test]
-fn declarations() {
-    for (line, expected) in [
-        ("  V.P.COUNT : UNS32 = 4", "V.P.COUNT : UNS32 = 4"),
-        ("V.L.TOL=0.01", "V.L.TOL = 0.01"),
-        ("V.P.TAB[2][3] = [1,2,3,4,5,6]", "V.P.TAB[2][3] = [1, 2, 3, 4, 5, 6]"),
-        ("V.L.NAME:string[20] = \"corner\"", "V.L.NAME : STRING[20] = \"corner\""),
-        ("P7[10]", "P7[10]"),
-        ("N10 V.S.SPEED", "N10 V.S.SPEED"),
-        ("#ENDVAR", "#ENDVAR"),
-    ] {
-        let (block, diagnostics) = parse_as(line, Mode::Declaration);
-        assert!(diagnostics.is_empty(), "{line}: {diagnostics:?}");
-        assert_eq!(block.to_string(), expected, "{line}");
+fn declarations_and_branches_not_taken() {
+    let declared = include_str!("../../../tests/syntax/declarations.txt");
+    let not_taken = include_str!("../../../tests/syntax/not_taken.txt");
+    for (table, mode, refused) in
+        [(declared, Mode::Declaration, "X10"), (not_taken, Mode::Inactive, "$IF P1=")]
+    {
+        for (line, expected) in rows(table) {
+            let (block, diagnostics) = parse_as(line, mode);
+            assert!(diagnostics.is_empty(), "{line}: {diagnostics:?}");
+            assert_eq!(block.to_string(), expected, "{line}");
+        }
+        assert!(!parse_as(refused, mode).1.is_empty());
     }
-    assert!(!parse_as("X10", Mode::Declaration).1.is_empty());
-}
-
-#[test]
-fn a_branch_not_taken_is_hardly_looked_at() {
-    for (line, expected) in [
-        ("N10 X[[ }{", "N10"),
-        ("N10: garbage", "N10:"),
-        ("$ENDIF", "$ENDIF"),
-        ("N5 $IF P1", "N5 $IF P1"),
-        ("$GOTO [x", ""),
-        ("#FOO [", ""),
-    ] {
-        let (block, diagnostics) = parse_as(line, Mode::Inactive);
-        assert!(diagnostics.is_empty(), "{line}: {diagnostics:?}");
-        assert_eq!(block.to_string(), expected, "{line}");
-    }
-    assert!(!parse_as("$IF P1=", Mode::Inactive).1.is_empty());
 }
 
 #[test]

@@ -219,7 +219,7 @@ impl Decoder {
             }
             SpindleItem::Feedforward(on) => {
                 self.motion.spindles[spindle].feedforward = on;
-                self.spindle_feedforward(spindle);
+                self.motion.spindle_feedforward(spindle, &mut self.contour);
             }
             SpindleItem::Weight(percent) if percent < 0.0 => {
                 let text = format!("feedforward weight {percent} % is negative");
@@ -228,16 +228,10 @@ impl Decoder {
             SpindleItem::Weight(percent) => {
                 let percent = limited_weight(percent, span, &mut self.report);
                 self.motion.spindles[spindle].weight_ratio = percent / 100.0;
-                self.spindle_feedforward(spindle);
+                self.motion.spindle_feedforward(spindle, &mut self.contour);
             }
         }
         Ok(())
-    }
-
-    fn spindle_feedforward(&mut self, spindle: usize) {
-        if let Some(event) = self.motion.spindles[spindle].feedforward_event() {
-            self.contour.event(event);
-        }
     }
 
     /// M3, M4, M5 and M19; `positions`: beside M19.

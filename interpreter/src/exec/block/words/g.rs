@@ -3,11 +3,31 @@
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::choice::Selection;
 use crate::exec::block::collected::{CycleCall, GWord, Words};
-use crate::exec::block::dialect;
+use crate::exec::block::dialect::{self, Seen};
 use crate::exec::block::groups::{self, Act, Group, Row, ValueRule};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{GValue, Span};
+
+impl Words<'_> {
+    /// A group has one function in a block; G90 and G91 may follow each other if the list permits it, beginning with
+    /// `dimension`, whether the block starts with absolute positions.
+    fn occupy(&mut self, row: &'static Row, dimension: Option<bool>, span: Span) -> Outcome<()> {
+        if let Some(at_start) = dimension
+            && let Act::Absolute(absolute) = row.act
+        {
+            if self.dimensions.is_empty() {
+                self.dimensions.push((0, at_start));
+            }
+            self.dimensions.push((self.axes.len(), absolute));
+        } else if row.group != Group::None
+            && let Some(first) = self.group(row.group)
+        {
+            return Err(duplicate(first.row, row, span));
+        }
+        Ok(())
+    }
+}
 
 impl Decoder {
     pub(super) fn g_word(
@@ -30,9 +50,10 @@ impl Decoder {
             }));
         }
         let Some(row) = groups::row(number) else {
-            return Err(self.unknown_g(number, span));
+            return Err(unknown(number, self.dialect, span));
         };
-        self.occupy_group(row, span, block)?;
+        let several = self.machine.channel.language.several_dimensions;
+        block.occupy(row, several.then_some(self.modal.absolute), span)?;
         for other in &block.g {
             if let Some(why) = groups::exclude(other.row, row) {
                 let text = format!("G{:02} and G{number:02} in one block: {why}", other.row.number);
@@ -55,36 +76,6 @@ impl Decoder {
         }
         let value = self.g_value(row, value, span)?;
         block.g.push(GWord { row, value, span });
-        Ok(())
-    }
-
-    fn unknown_g(&mut self, number: u32, span: Span) -> Box<Fault> {
-        if let Some(fault) = self.dialect.homing(number, span) {
-            return fault;
-        }
-        let fault =
-            Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
-                .with(|d| d.value(ValueKind::Current, number, "-"));
-        match dialect::unknown_g(number) {
-            Some(hint) => fault.hint(hint),
-            None => fault,
-        }
-    }
-
-    /// A group has one function in a block; G90 and G91 may follow each other if the list permits it.
-    fn occupy_group(&self, row: &'static Row, span: Span, block: &mut Words<'_>) -> Outcome<()> {
-        if self.machine.channel.language.several_dimensions
-            && let Act::Absolute(absolute) = row.act
-        {
-            if block.dimensions.is_empty() {
-                block.dimensions.push((0, self.modal.absolute));
-            }
-            block.dimensions.push((block.axes.len(), absolute));
-        } else if row.group != Group::None
-            && let Some(first) = block.group(row.group)
-        {
-            return Err(duplicate(first.row, row, span));
-        }
         Ok(())
     }
 
@@ -180,4 +171,17 @@ fn duplicate(first: &Row, second: &Row, span: Span) -> Box<Fault> {
         _ => second.group.duplicate(),
     };
     Fault::new(condition, text, span).with(|d| d.value(ValueKind::Wrong, second.number, "-"))
+}
+
+/// A G function that the control does not have, with what other dialects mean by it.
+fn unknown(number: u32, dialect: Seen, span: Span) -> Box<Fault> {
+    if let Some(fault) = dialect.homing(number, span) {
+        return fault;
+    }
+    let fault = Fault::new(Condition::GUnknown, format!("unknown G function G{number:02}"), span)
+        .with(|d| d.value(ValueKind::Current, number, "-"));
+    match dialect::unknown_g(number) {
+        Some(hint) => fault.hint(hint),
+        None => fault,
+    }
 }

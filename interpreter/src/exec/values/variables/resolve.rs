@@ -70,15 +70,13 @@ fn variable<'a>(decoder: &Decoder, segments: &'a [Segment]) -> Outcome<Resolved<
     Ok(Resolved::Variable(Target::Own(class, Cow::Owned(name), subscripts)))
 }
 
-impl Decoder {
-    /// The name of an external variable with its indices; empty for other places.
-    pub(super) fn external_name_of(&self, place: &Place) -> Outcome<String> {
-        match &place.kind {
-            PlaceKind::Variable(segments) => {
-                external_name(self, segments.get(1..).unwrap_or_default())
-            }
-            PlaceKind::Parameter { .. } | PlaceKind::Cycle(_) => Ok(String::new()),
+/// The name of an external variable with its indices; empty for other places.
+pub(super) fn external_name_of(decoder: &Decoder, place: &Place) -> Outcome<String> {
+    match &place.kind {
+        PlaceKind::Variable(segments) => {
+            external_name(decoder, segments.get(1..).unwrap_or_default())
         }
+        PlaceKind::Parameter { .. } | PlaceKind::Cycle(_) => Ok(String::new()),
     }
 }
 

@@ -6,6 +6,7 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::External;
 use crate::exec::step::Sync;
+use crate::exec::values::variables::resolve::external_name_of;
 use crate::source::RawBlock;
 use crate::syntax::Parser;
 use crate::syntax::ast::{Assign, Body, Expr, ExprKind, Place, PlaceKind, Span, Word, WordKind};
@@ -66,7 +67,7 @@ impl Decoder {
             _ => return Err(refused(Condition::ExternalNotInitialised, no_assignment)),
         };
         let span = assign.target.span;
-        let name = self.external_name_of(&assign.target).ok().filter(|name| {
+        let name = external_name_of(self, &assign.target).ok().filter(|name| {
             let externals = &self.values.variables.external;
             externals.declared(name, span).is_ok_and(|declared| declared.is_some())
         });

@@ -1,0 +1,192 @@
+//! The set path: filtered set points joined by straight lines.
+
+use crate::axis::AxisVec;
+use std::ops::Range;
+
+/// Set points of consecutive cycles.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SetPath {
+    axes: usize,
+    first: u64,
+    /// Coordinates of all axes, cycle after cycle.
+    values: Vec<f64>,
+    /// Length of the set path in mm at each set point, measured from some point before the first.
+    ways: Vec<f64>,
+}
+
+impl SetPath {
+    /// Without set points; the next one is that of cycle `first`.
+    pub(crate) fn starting(first: u64, axes: usize) -> Self {
+        Self { axes, first, values: Vec::new(), ways: Vec::new() }
+    }
+
+    /// Restarts with the set point of cycle `k` only.
+    pub(super) fn restart(&mut self, k: u64, point: &[f64]) {
+        (self.axes, self.first) = (point.len(), k);
+        self.values.clear();
+        self.ways.clear();
+        self.push(point);
+    }
+
+    pub(crate) fn axes(&self) -> usize {
+        self.axes
+    }
+
+    /// Adds the set point of the next cycle.
+    pub(crate) fn push(&mut self, point: &[f64]) {
+        let n = point.len();
+        let way = self.ways.last().map_or(0.0, |way| {
+            let before = &self.values[self.values.len() - n..][..n];
+            let mut square = 0.0;
+            for i in 0..n {
+                square += (point[i] - before[i]) * (point[i] - before[i]);
+            }
+            way + f64::sqrt(square)
+        });
+        self.ways.push(way);
+        self.values.extend_from_slice(point);
+    }
+
+    /// The cycle of the first set point.
+    pub(super) fn first(&self) -> u64 {
+        self.first
+    }
+
+    /// Length of the set path in mm up to the set point of cycle `k`, measured from some point before the first.
+    pub(super) fn way(&self, k: u64) -> f64 {
+        self.ways[(k - self.first) as usize]
+    }
+
+    /// The cycle after the last one.
+    pub(crate) fn end(&self) -> u64 {
+        self.first + self.ways.len() as u64
+    }
+
+    /// Forgets the set points before cycle `k`; not in every call.
+    pub(crate) fn forget_before(&mut self, k: u64) {
+        let old = (k.saturating_sub(self.first) as usize).min(self.ways.len());
+        if 2 * old > self.ways.len() {
+            self.values.drain(..old * self.axes);
+            self.ways.drain(..old);
+            self.first += old as u64;
+        }
+    }
+
+    pub(crate) fn get(&self, k: u64) -> Option<&[f64]> {
+        let at = k.checked_sub(self.first)? as usize * self.axes;
+        self.values.get(at..at + self.axes)
+    }
+
+    /// Distance in mm of a point from the line that ends at the set point of cycle `k`.
+    pub(crate) fn distance(&self, k: u64, point: &[f64]) -> f64 {
+        self.to_line(k.saturating_sub(1), point).0.sqrt()
+    }
+
+    /// Largest distance in mm of the set points of some cycles from the line through two points.
+    pub(crate) fn bulge(&self, cycles: Range<u64>, from: &[f64], to: &[f64]) -> f64 {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<AxisVec>();
+        let along = minus(to, from);
+        let square = dot(&along, &along);
+        let beside = cycles.filter_map(|k| {
+            let off = minus(self.get(k)?, from);
+            let part = dot(&off, &along);
+            let on_line = if square > 0.0 { part * part / square } else { 0.0 };
+            Some(dot(&off, &off) - on_line)
+        });
+        beside.fold(0.0, f64::max).sqrt()
+    }
+
+    /// Sum of the angles in rad between the lines that end at the set points of some cycles; those known so far.
+    pub(crate) fn turn(&self, cycles: Range<u64>) -> f64 {
+        let n = self.axes;
+        let mut before: Option<AxisVec> = None;
+        let mut sum = 0.0;
+        for k in cycles {
+            let (Some(from), Some(to)) = (k.checked_sub(1).and_then(|k| self.get(k)), self.get(k))
+            else {
+                continue;
+            };
+            let mut along = AxisVec::zeros(n);
+            let mut square = 0.0;
+            for i in 0..n {
+                along[i] = to[i] - from[i];
+                square += along[i] * along[i];
+            }
+            if square > 0.0 {
+                let scale = 1.0 / f64::sqrt(square);
+                along.iter_mut().for_each(|c| *c *= scale);
+                if let Some(before) = &before {
+                    // the chord of the angle
+                    let chord = along
+                        .iter()
+                        .zip(before.iter())
+                        .map(|(a, b)| (a - b) * (a - b))
+                        .sum::<f64>();
+                    sum += 2.0 * libm::asin((0.5 * chord.sqrt()).min(1.0));
+                }
+                before = Some(along);
+            }
+        }
+        sum
+    }
+
+    /// The shortest vector from a point to the lines between all set points.
+    pub(crate) fn shortest(&self, point: &[f64]) -> AxisVec {
+        let lines = self.first..self.end().saturating_sub(1);
+        let nearest =
+            lines.min_by(|a, b| self.to_line(*a, point).0.total_cmp(&self.to_line(*b, point).0));
+        let mut vector = AxisVec::zeros(self.axes);
+        if let Some(k) = nearest {
+            self.aside(k, point, &mut vector);
+        }
+        vector
+    }
+
+    /// Square of the distance in mm2 of a point from the line between cycle `k` and cycle `k + 1`, and the position on
+    /// the line.
+    pub(super) fn to_line(&self, k: u64, point: &[f64]) -> (f64, f64) {
+        let n = point.len();
+        let ends = k.checked_sub(self.first).and_then(|at| {
+            let at = at as usize * n;
+            self.values.get(at..at + 2 * n)
+        });
+        let Some((a, b)) = ends.map(|ends| ends.split_at(n)) else { return (f64::INFINITY, 0.0) };
+        // the numbers of axes that occur have loops of known length
+        match n {
+            2 => foot(&a[..2], &b[..2], &point[..2]),
+            3 => foot(&a[..3], &b[..3], &point[..3]),
+            4 => foot(&a[..4], &b[..4], &point[..4]),
+            _ => foot(a, b, point),
+        }
+    }
+
+    /// The shortest vector from a point to the line between cycle `k` and cycle `k + 1`.
+    pub(super) fn aside(&self, k: u64, point: &[f64], vector: &mut [f64]) {
+        let u = self.to_line(k, point).1;
+        let (Some(a), Some(b)) = (self.get(k), self.get(k + 1)) else { return };
+        for (((v, p), a), b) in vector.iter_mut().zip(point).zip(a).zip(b) {
+            *v = a + u * (b - a) - p;
+        }
+    }
+}
+
+/// Square of the distance in mm2 of a point from the line between two others, and the position on the line.
+#[inline]
+fn foot(a: &[f64], b: &[f64], point: &[f64]) -> (f64, f64) {
+    let n = a.len();
+    let (b, point) = (&b[..n], &point[..n]);
+    let (mut dot, mut norm) = (0.0, 0.0);
+    for i in 0..n {
+        let d = b[i] - a[i];
+        dot += (point[i] - a[i]) * d;
+        norm += d * d;
+    }
+    let u = if norm > 0.0 { (dot / norm).clamp(0.0, 1.0) } else { 0.0 };
+    let mut d2 = 0.0;
+    for i in 0..n {
+        let c = a[i] + u * (b[i] - a[i]) - point[i];
+        d2 += c * c;
+    }
+    (d2, u)
+}
