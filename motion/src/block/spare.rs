@@ -40,3 +40,38 @@ impl SpareBlocks {
         place
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::example::block;
+
+    fn boxed(seq: u64) -> Box<Block> {
+        Box::new(block(seq, [0.0, 0.0], [seq as f64, 0.0], 10.0))
+    }
+
+    /// A block in the memory of another one is what it would be elsewhere, and no list grows beyond its bound.
+    #[test]
+    fn memory_is_used_again() {
+        let mut spare = SpareBlocks::default();
+        for seq in 0..2 * SpareBlocks::MOST as u64 {
+            spare.add(boxed(seq));
+        }
+        let mut all = SpareBlocks::default();
+        all.add(boxed(1));
+        all.append(&mut spare);
+        assert!(spare.is_empty());
+        let places: Vec<*const Block> = all.0.iter().map(|block| &raw const **block).collect();
+        assert_eq!(places.len(), SpareBlocks::MOST);
+        let mut placed_before = Vec::new();
+        for seq in 0..places.len() as u64 {
+            let placed = all.place(*boxed(seq));
+            assert!(places.contains(&(&raw const *placed)));
+            assert_eq!(format!("{placed:?}"), format!("{:?}", boxed(seq)));
+            // otherwise the allocator could give its memory to the next one
+            placed_before.push(placed);
+        }
+        assert!(all.is_empty());
+        assert_eq!(all.place(*boxed(7)).seq, 7);
+    }
+}
