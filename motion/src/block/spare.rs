@@ -47,7 +47,7 @@ mod tests {
     use crate::example::block;
 
     fn boxed(seq: u64) -> Box<Block> {
-        Box::new(block(seq, [0.0, 0.0], [seq as f64, 0.0], 10.0))
+        Box::new(block(seq, [0.0, 0.0], [1.0 + seq as f64, 0.0], 10.0))
     }
 
     /// A block in the memory of another one is what it would be elsewhere, and no list grows beyond its bound.
