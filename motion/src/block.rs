@@ -15,12 +15,14 @@
 //! ```
 
 mod contour;
+mod spare;
 mod spline;
 
 use crate::axis::AxisDynamics;
 use std::sync::Arc;
 
 pub use contour::{BlockLimit, ContourMode, ContourSettings};
+pub use spare::SpareBlocks;
 pub use spline::SplineSettings;
 
 /// Shape of the acceleration over time (P-CHAN-00071, `#SLOPE`).

@@ -104,11 +104,15 @@ impl Contour {
         self.blocks.push_back(passed);
     }
 
-    /// Forgets the blocks that were left before `cycles`; returns their number.
-    pub(crate) fn forget_before(&mut self, cycles: f64) -> usize {
+    /// Forgets the blocks that were left before `cycles` and passes them to `left`; returns their number.
+    pub(crate) fn forget_before(
+        &mut self,
+        cycles: f64,
+        mut left: impl FnMut(Arc<Queued>),
+    ) -> usize {
         let mut count = 0;
         while self.blocks.len() > 1 && self.blocks[1].cycles < cycles {
-            self.blocks.pop_front();
+            self.blocks.pop_front().into_iter().for_each(|passed| left(passed.queued));
             count += 1;
         }
         self.forgotten += count as u64;

@@ -36,10 +36,11 @@ mod halt;
 mod replan;
 mod rests;
 mod sharp;
+mod spent;
 
 use crate::ahead::Ahead;
 use crate::axis::AxisVec;
-use crate::block::{Block, Feed};
+use crate::block::{Block, Feed, SpareBlocks};
 use crate::cap::{Cap, SpeedLimit};
 use crate::contour::Contour;
 use crate::deviation::Unkept;
@@ -54,6 +55,7 @@ use crate::realtime::{FeedholdBraking, Override, OverrideMode, OverrideRatios};
 use crate::timeline::{Moment, PathState, Timeline};
 use crate::tolerance::{Kernels, Monitor};
 use kontur_filters::time::CycleTime;
+use spent::Spent;
 use std::sync::Arc;
 
 /// One cycle of the path.
@@ -121,6 +123,7 @@ pub struct Planner {
     /// Override and feedhold in effect, and the requested ones.
     active: Realtime,
     wanted: Realtime,
+    spent: Spent,
 }
 
 /// External influences on the path.
@@ -156,6 +159,7 @@ impl Planner {
             halted: None,
             active: Realtime::default(),
             wanted: Realtime::default(),
+            spent: Spent::default(),
         }
     }
 
@@ -235,7 +239,7 @@ impl Planner {
         let table = &mut self.slopes[usize::from(block.feed == Feed::Rapid)];
         table.take_if(|table| !table.serves(&block));
         let table = table.get_or_insert_with(|| SlopeTable::of(&block, self.cycle));
-        let queued = Arc::new(Queued::with(block, table, &self.active.ratios));
+        let queued = self.spent.place(Queued::with(block, table, &self.active.ratios));
         let cap = match &self.last {
             Some(last) => transition(
                 &last.block,
@@ -257,6 +261,11 @@ impl Planner {
         let segment = Segment { queued: Arc::clone(&queued), cap, asked: None };
         self.plan.push(segment, self.cycle, self.kernels.any());
         self.last = Some(queued);
+    }
+
+    /// Blocks that have been left, whose memory the caller may use for the next ones.
+    pub fn spent_blocks(&mut self) -> &mut SpareBlocks {
+        &mut self.spent.blocks
     }
 
     /// Lets the path come to rest after the last block pushed.
@@ -414,7 +423,8 @@ impl Planner {
         self.setpoint.limit = self.state.limit;
         self.setpoint.seq = self.state.seq;
         self.monitor.record(&self.setpoint.position, self.setpoint.s_mm);
-        let left = self.contour.forget_before(k as f64 - f64::from(self.reach_cycles) - 8.0);
+        let before = k as f64 - f64::from(self.reach_cycles) - 8.0;
+        let left = self.contour.forget_before(before, |queued| self.spent.keep(queued));
         if left > 0 {
             self.report(|_| What::Leave(left));
         }

@@ -20,6 +20,7 @@ use crate::diag::{Condition, Diagnostic};
 use crate::machine::{Axis, Machine};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SpareBlocks;
 use std::sync::Arc;
 
 /// A signal that was sent.
@@ -57,6 +58,8 @@ pub(super) struct Decoder {
     pub(super) moved: bool,
     /// State shared by consecutive plain motions.
     pub(super) straight: Option<Box<Straight>>,
+    /// Memory of blocks that have been run.
+    pub(super) spare: SpareBlocks,
 }
 
 impl Decoder {
@@ -66,6 +69,7 @@ impl Decoder {
         let mut decoder = Self {
             identity_trafo: options.identity_trafo,
             live: Live::default(),
+            spare: SpareBlocks::default(),
             names: AxisNames::new(&machine.axes),
             report: Report::default(),
             modal: Modal::start(

@@ -10,6 +10,7 @@ use crate::exec::{
 use crate::machine::Machine;
 use crate::source::Sources;
 use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SpareBlocks;
 use std::sync::Arc;
 
 /// See the module.
@@ -75,14 +76,15 @@ impl Program {
         self.told.timers.push(call);
     }
 
-    /// The next step; messages of its decoding are added to `found`.
-    pub(super) fn next(&mut self, found: &mut Vec<Diagnostic>) -> Step {
+    /// The next step; messages of its decoding are added to `found`. The memory of blocks that were left is reused.
+    pub(super) fn next(&mut self, found: &mut Vec<Diagnostic>, left: &mut SpareBlocks) -> Step {
         let decoded = match &mut self.decoding {
             Decoding::OnDemand(executor) => {
                 executor.tell(std::mem::take(&mut self.told));
+                executor.reuse(left);
                 Some(executor.decode())
             }
-            Decoding::Ahead(ahead) => ahead.next(&mut self.told),
+            Decoding::Ahead(ahead) => ahead.next(&mut self.told, left),
             Decoding::Lost => None,
         };
         let Some(Decoded { step, blocks, rare }) = decoded else {

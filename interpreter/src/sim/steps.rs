@@ -55,7 +55,7 @@ impl Simulation {
         if let Some(feedback) = self.feedback() {
             self.program.tell(feedback);
         }
-        self.program.next(&mut self.messages.program)
+        self.program.next(&mut self.messages.program, self.planner.spent_blocks())
     }
 
     fn take(&mut self, step: Step) {

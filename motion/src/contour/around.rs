@@ -386,7 +386,7 @@ mod tests {
                 prop_assert_eq!((seen, vectors[0]), (alone, vectors[1]));
                 before = here;
                 drop((around, other));
-                contour.forget_before(from - 4.0);
+                contour.forget_before(from - 4.0, drop);
             }
         }
     }

@@ -130,7 +130,7 @@ impl Decoder {
         }
         let (contour, spline) = hsc;
         self.update_ramps();
-        let block = Box::new(Block {
+        let block = self.spare.place(Block {
             seq: 0,
             path,
             feed,

@@ -170,7 +170,7 @@ impl Decoder {
         if self.report.failed() && !self.checking {
             return Some(shared);
         }
-        let block = Box::new(Block {
+        let block = self.spare.place(Block {
             seq: 0,
             path,
             feed: shared.feed,

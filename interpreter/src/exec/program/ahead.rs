@@ -6,6 +6,7 @@
 //! decoded on demand. The thread ends with the program, and as soon as nobody takes its steps any more.
 
 use super::executor::Executor;
+use crate::exec::decoder::Decoder;
 use crate::exec::step::{Ahead, Step, line};
 
 /// The machine's end of a connection, and the work at the program's end.
@@ -17,8 +18,9 @@ pub(crate) fn connection() -> (Ahead, impl FnOnce(Box<Executor>) + Send + 'stati
         loop {
             let decoded = executor.decode();
             let over = matches!(decoded.step, Step::End { .. });
-            let Some(line) = executor.decoder.live.line() else { return };
-            if !line.push(decoded) {
+            let Decoder { live, spare, .. } = &mut executor.decoder;
+            let Some(line) = live.line() else { return };
+            if !line.push(decoded, spare) {
                 return;
             }
             if over {

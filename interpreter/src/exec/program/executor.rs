@@ -24,6 +24,7 @@ use crate::source::{Position, Sources};
 use crate::syntax::Parser;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
+use kontur_motion::block::SpareBlocks;
 use std::fmt;
 use std::sync::Arc;
 
@@ -250,6 +251,11 @@ impl Executor {
     /// Takes news of the machine, before the next step is decoded.
     pub(crate) fn tell(&mut self, told: Told) {
         self.decoder.live.tell(told);
+    }
+
+    /// Takes the memory of blocks that have been run.
+    pub(crate) fn reuse(&mut self, left: &mut SpareBlocks) {
+        self.decoder.spare.append(left);
     }
 
     /// Files opened since the last call, unless [`Self::decode`] has returned them.

@@ -2,6 +2,7 @@
 
 use super::Told;
 use super::decoded::Decoded;
+use kontur_motion::block::SpareBlocks;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 
 /// Most steps of a parcel: enough that its hand-over does not count.
@@ -23,6 +24,9 @@ struct Parcel {
 pub(in crate::exec) struct Line {
     parcels: SyncSender<Parcel>,
     answers: Receiver<Told>,
+    /// Blocks that the machine has left, and those that have arrived.
+    spent: Receiver<SpareBlocks>,
+    spare: SpareBlocks,
     decoded: Vec<Decoded>,
     /// Whether the machine has been asked during the current step.
     asked: bool,
@@ -37,15 +41,21 @@ impl Line {
         self.send(true).then(|| self.answers.recv().ok())?
     }
 
-    /// Hands over a step; false if nobody takes it any more.
-    pub(in crate::exec) fn push(&mut self, decoded: Decoded) -> bool {
+    /// Hands over a step; false if nobody takes it any more. What the machine has left is added to `spare`, not in every call.
+    pub(in crate::exec) fn push(&mut self, decoded: Decoded, spare: &mut SpareBlocks) -> bool {
         self.asked = false;
         self.decoded.push(decoded);
-        self.decoded.len() < STEPS || self.send(false)
+        if self.decoded.len() < STEPS {
+            return true;
+        }
+        let sent = self.send(false);
+        spare.append(&mut self.spare);
+        sent
     }
 
     /// Hands over what was decoded; `asks`: the program waits for an answer. False if nobody takes it any more.
     pub(in crate::exec) fn send(&mut self, asks: bool) -> bool {
+        self.spent.try_iter().for_each(|mut spent| self.spare.append(&mut spent));
         let decoded = std::mem::replace(&mut self.decoded, Vec::with_capacity(STEPS));
         self.parcels.send(Parcel { decoded, asks }).is_ok()
     }
@@ -56,16 +66,22 @@ impl Line {
 pub(crate) struct Ahead {
     parcels: Receiver<Parcel>,
     answers: Sender<Told>,
+    spent: Sender<SpareBlocks>,
     decoded: std::vec::IntoIter<Decoded>,
     asked: bool,
 }
 
 impl Ahead {
-    /// The next step; `told` goes to the program if it needs it. `None` if the thread has ended.
-    pub(crate) fn next(&mut self, told: &mut Told) -> Option<Decoded> {
+    /// The next step; `told` goes to the program if it needs it, blocks that were left with the next parcel. `None` if the thread
+    /// has ended.
+    pub(crate) fn next(&mut self, told: &mut Told, left: &mut SpareBlocks) -> Option<Decoded> {
         loop {
             if let Some(decoded) = self.decoded.next() {
                 return Some(decoded);
+            }
+            if !left.is_empty() {
+                // at the end of the program nobody needs them
+                let _ = self.spent.send(std::mem::take(left));
             }
             if std::mem::take(&mut self.asked) {
                 self.answers.send(std::mem::take(told)).ok()?;
@@ -80,7 +96,15 @@ impl Ahead {
 pub(in crate::exec) fn line() -> (Ahead, Line) {
     let (parcels, taken) = sync_channel(PARCELS);
     let (answers, answered) = channel();
-    let decoded = Vec::with_capacity(STEPS);
-    let line = Line { parcels, answers: answered, decoded, asked: false };
-    (Ahead { parcels: taken, answers, decoded: Vec::new().into_iter(), asked: false }, line)
+    let (left, spent) = channel();
+    let line = Line {
+        parcels,
+        answers: answered,
+        spent,
+        spare: SpareBlocks::default(),
+        decoded: Vec::with_capacity(STEPS),
+        asked: false,
+    };
+    let decoded = Vec::new().into_iter();
+    (Ahead { parcels: taken, answers, spent: left, decoded, asked: false }, line)
 }
