@@ -1,6 +1,7 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
 mod ripple;
+mod slaved;
 mod unequal;
 
 use crate::common::{Job, axis, channel, circle, deviation, peaks};
