@@ -10,10 +10,12 @@ const SHARE: f64 = 0.3;
 const MOST: f64 = 3e-3;
 /// Tolerances that are used where none is programmed: the defaults of `PATH_DEV` and `TRACK_DEV`.
 const UNMONITORED: [f64; 2] = [0.2, 5.0];
-/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points.
+/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points; and on an
+/// arc, where points next to each other turn in the same direction: an arc in coarse chords is not a row of corners.
 const CORNER_RAD: f64 = 0.35;
+const ARC_RAD: f64 = 0.7;
 const GRAIN_MM: f64 = 1e-3;
-/// Second differences of neighbours in the same direction, as a share of the one at a kink, below which the kink is not
+/// Second derivatives of neighbours in the same direction, as a share of the one at a point, below which the point is not
 /// part of a curve.
 const ALONE: f64 = 0.5;
 
@@ -113,7 +115,21 @@ impl Row<'_> {
             sum2 += (w + u) * (w + u);
         }
         let angle = 2.0 * libm::atan2(f64::sqrt(jump2), f64::sqrt(sum2));
-        angle > CORNER_RAD + 2.0 * GRAIN_MM * (h.recip() + k.recip())
+        let angle = angle - 2.0 * GRAIN_MM * (h.recip() + k.recip());
+        angle > CORNER_RAD && (angle > ARC_RAD || self.turns_alone(i))
+    }
+
+    /// Whether the path turns at a point, but not at the next one on either side as on an arc.
+    fn turns_alone(&self, i: usize) -> bool {
+        let bend = |n: usize, axis: usize| {
+            let inside = n > 0 && n + 1 < self.vertices.len();
+            if inside { self.bend(n, axis)[0] } else { 0.0 }
+        };
+        let with = |n: usize| {
+            let product = |axis: &usize| bend(i, *axis) * bend(n, *axis);
+            self.groups[0].iter().map(product).sum::<f64>()
+        };
+        with(i - 1).max(with(i + 1)) < ALONE * with(i)
     }
 
     /// Whether an axis outside the feed group changes its speed along the path at a point alone, by more than a curve so
