@@ -2,6 +2,7 @@
 
 mod limits;
 mod ripple;
+mod slaved;
 mod unequal;
 
 use crate::common::{Job, axis, channel, circle, deviation, peaks};

@@ -19,6 +19,7 @@
 
 mod build;
 mod certificate;
+mod data;
 mod fit;
 mod knots;
 mod row;

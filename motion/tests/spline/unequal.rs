@@ -103,6 +103,39 @@ fn doubled_points_take_the_time_of_the_arc() {
     }
 }
 
+/// Small arcs in chords that turn by 20 to 37 degrees, between lines, are not rows of corners: the spline has about the
+/// curvature of the arc, where it had several times of it at each corner.
+#[test]
+fn coarse_chords_of_a_small_arc_are_no_corners() {
+    let job = machine();
+    for (radius, turn) in [(1.0, 0.36_f64), (0.75, 0.43), (1.0, 0.5), (0.6, 0.65)] {
+        let chord = 2.0 * radius * libm::sin(0.5 * turn);
+        let (mut p, mut heading) = ([0.0, 0.0], 0.0_f64);
+        let mut points = vec![p.to_vec()];
+        let lengths = std::iter::once(5.0).chain(std::iter::repeat_n(chord, 6)).chain([5.0]);
+        for (k, length) in lengths.enumerate() {
+            let (sin, cos) = libm::sincos(heading);
+            p = [p[0] + length * cos, p[1] + length * sin];
+            points.push(p.map(|x| libm::round(1000.0 * x) / 1000.0).to_vec());
+            heading += if k == 0 || k == 6 { 0.5 * turn } else { turn };
+        }
+        let settings = SplineSettings { path_dev_mm: 0.1, ..SplineSettings::default() };
+        let blocks = splined(&job, settings, &points, FEED_MM_S);
+        // over the arc without its first and last chord
+        let arc = blocks.iter().filter(|b| (2..=5).contains(&b.seq));
+        let bend = |b: &Block| {
+            let at = |k: u32| b.path.length() * f64::from(k) / 8.0;
+            let of = |k| vector(&b.path, |p, v| p.curvature(at(k), v));
+            (0..=8).map(|k| apart(&of(k), &[0.0, 0.0])).fold(0.0, f64::max)
+        };
+        let most = arc.map(bend).fold(0.0, f64::max) * radius;
+        println!("radius {radius} turn {turn}: {most} times the curvature of the arc");
+        assert!(most < 1.5, "radius {radius} turn {turn}: {most}");
+        let (out, missed) = strays(&blocks, &points);
+        assert!(out <= 0.1 && missed <= 0.1, "{out} {missed}");
+    }
+}
+
 /// A slot: behind an arc in short chords a long line, its middle straight.
 #[test]
 fn a_line_behind_an_arc_stays_straight() {

@@ -100,12 +100,13 @@ impl Equation {
 }
 
 /// Control points by axis for points (by axis) at the parameters `at`, the outer ones at the first and the last point.
-/// `room`: largest permitted distance of a point from the curve. At least five points.
+/// `room`: largest permitted distance of a point from the curve; `at_kink`: around a kink that the curve rounds. At least five points.
 pub(super) fn control_points(
     knots: &[f64],
     at: &[f64],
     axes: &[&[f64]],
     room: &[f64],
+    at_kink: &[bool],
 ) -> Vec<Vec<f64>> {
     let n = at.len() - 1;
     let frame = Spline::new(knots, &[]);
@@ -116,7 +117,7 @@ pub(super) fn control_points(
             Equation::new(interval, n, frame.basis(interval, at[i]))
         })
         .collect();
-    let thirds: Vec<Equation> = reaches(knots, at, axes, room)
+    let thirds: Vec<Equation> = reaches(knots, at, axes, room, at_kink)
         .iter()
         .enumerate()
         .map(|(k, l)| Equation::new(k, n, frame.third_factors(k).map(|f| f * l * l * l)))
@@ -167,15 +168,20 @@ pub(super) fn control_points(
     moved_inwards(knots, at, out)
 }
 
-/// The length `l` for every knot interval.
-fn reaches(knots: &[f64], at: &[f64], axes: &[&[f64]], room: &[f64]) -> Vec<f64> {
+/// Largest length `l` for a knot interval.
+pub(super) fn reach(interval: f64) -> f64 {
+    (REACH_INTERVALS * interval).min(REACH_MM)
+}
+
+/// The length `l` for every knot interval. Around a kink the curvature is that of the kink, which `l` has to round.
+fn reaches(knots: &[f64], at: &[f64], axes: &[&[f64]], room: &[f64], at_kink: &[bool]) -> Vec<f64> {
     let bends = bends(at, axes);
     let n = knots.len() - 1;
     let of_interval = |k: usize| {
         let h = knots[k + 1] - knots[k];
         let (bend, room) = (bends[k].max(bends[k + 1]), room[k].min(room[k + 1]));
-        let mut l = (REACH_INTERVALS * h).min(REACH_MM);
-        if bend > 0.0 {
+        let mut l = reach(h);
+        if bend > 0.0 && !(at_kink[k] || at_kink[k + 1]) {
             let middle = 0.5 * (knots[k] + knots[k + 1]);
             let to_end = (middle - knots[0]).min(knots[n] - middle);
             l = l.min(libm::pow(SHRINKS * room / libm::pow(bend, 5.0), 1.0 / 6.0));

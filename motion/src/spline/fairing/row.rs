@@ -10,9 +10,18 @@ const SHARE: f64 = 0.3;
 const MOST: f64 = 3e-3;
 /// Tolerances that are used where none is programmed: the defaults of `PATH_DEV` and `TRACK_DEV`.
 const UNMONITORED: [f64; 2] = [0.2, 5.0];
-/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points.
+/// Change of direction at a corner in rad, in addition to the effect of noise of [`GRAIN_MM`] at three points; and on an
+/// arc, where points next to each other turn in the same direction: an arc in coarse chords is not a row of corners.
 const CORNER_RAD: f64 = 0.35;
+const ARC_RAD: f64 = 0.7;
 const GRAIN_MM: f64 = 1e-3;
+/// Second derivatives of neighbours in the same direction, as a share of the one at a point, below which the point is not
+/// part of a curve.
+const ALONE: f64 = 0.5;
+
+/// Share of the tolerance that rounding a kink of axes outside the feed group may use at a point; between the points it is
+/// more.
+const AT_KINKS: f64 = 0.5;
 
 /// Axes of the feed group, and the others.
 pub(super) type Groups = [Vec<usize>; 2];
@@ -106,13 +115,58 @@ impl Row<'_> {
             sum2 += (w + u) * (w + u);
         }
         let angle = 2.0 * libm::atan2(f64::sqrt(jump2), f64::sqrt(sum2));
-        angle > CORNER_RAD + 2.0 * GRAIN_MM * (h.recip() + k.recip())
+        let angle = angle - 2.0 * GRAIN_MM * (h.recip() + k.recip());
+        angle > CORNER_RAD && (angle > ARC_RAD || self.turns_alone(i))
     }
 
-    /// Largest distance of points of the edge after point `i` from the curve.
-    pub(super) fn room(&self, i: usize) -> [f64; 2] {
+    /// Whether the path turns at a point, but not at the next one on either side as on an arc.
+    fn turns_alone(&self, i: usize) -> bool {
+        let bend = |n: usize, axis: usize| {
+            let inside = n > 0 && n + 1 < self.vertices.len();
+            if inside { self.bend(n, axis)[0] } else { 0.0 }
+        };
+        let with = |n: usize| {
+            let product = |axis: &usize| bend(i, *axis) * bend(n, *axis);
+            self.groups[0].iter().map(product).sum::<f64>()
+        };
+        with(i - 1).max(with(i + 1)) < ALONE * with(i)
+    }
+
+    /// Whether an axis outside the feed group changes its speed along the path at a point alone, by more than a curve so
+    /// close to the points could do smoothly.
+    pub(super) fn is_kink(&self, i: usize) -> bool {
+        let (h, k) = (self.length(i - 1), self.length(i));
+        let room = self.room(i - 1, false)[1].min(self.room(i, false)[1]);
+        // the deviation of a control point at the kink, for a change of speed by 1
+        let reach = h * k / (3.0 * (h + k));
+        self.groups[1].iter().any(|axis| {
+            let [own, noise] = self.bend(i, *axis);
+            let beside = |n: usize| {
+                let inside = n > 0 && n + 1 < self.vertices.len();
+                let [bend, noise] = if inside { self.bend(n, *axis) } else { [0.0; 2] };
+                bend * own.signum() + noise
+            };
+            let (own, to_jump) = (own.abs() - noise, 0.5 * (h + k));
+            own * to_jump * reach > room && beside(i - 1).max(beside(i + 1)) < ALONE * own
+        })
+    }
+
+    /// Second derivative of an axis at a point from its neighbours, and what noise may change it by.
+    fn bend(&self, i: usize, axis: usize) -> [f64; 2] {
+        let [p, q, r] = [i - 1, i, i + 1].map(|k| self.vertices[k].point[axis]);
+        let (h, k) = (self.length(i - 1), self.length(i));
+        let of = 2.0 / (h + k);
+        [of * ((r - q) / k - (q - p) / h), of * 2.0 * GRAIN_MM * (h.recip() + k.recip())]
+    }
+
+    /// Largest distance of points of the edge after point `i` from the curve; `at_kink`: the axes outside the feed group
+    /// round a kink there.
+    pub(super) fn room(&self, i: usize, at_kink: bool) -> [f64; 2] {
         let settings = &self.chord(i).settings;
-        let [path, track] = rooms(settings);
+        let [path, mut track] = rooms(settings);
+        if at_kink {
+            track = track.max(AT_KINKS * self.chord(i).left()[1]);
+        }
         // along the path the other axes follow the feed group
         let (p, q) = (&self.vertices[i].point, &self.vertices[i + 1].point);
         let fastest = self.groups[1].iter().map(|k| (q[*k] - p[*k]).abs()).fold(0.0, f64::max);
