@@ -39,6 +39,7 @@ mod rounding;
 use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, Feed};
 use crate::worth::{Part, Passage};
 use kontur_filters::time::CycleTime;
+use parts::Parts;
 pub(crate) use rounding::NEEDLE_RAD;
 use rounding::{Curve, curve};
 use std::sync::Arc;
@@ -212,7 +213,7 @@ impl Contouring {
         block: &Block,
         settings: &ContourSettings,
         kernel_active: bool,
-    ) -> Result<Option<(Curve, Vec<(Block, f64)>)>, NoContour> {
+    ) -> Result<Option<(Curve, Parts)>, NoContour> {
         let Some(curve) = curve(held, &self.skipped, block, settings)? else { return Ok(None) };
         let parts = self.parts(&held.block, block, &curve, settings);
         let passage = Passage {

@@ -18,8 +18,11 @@ const GAIN: f64 = 0.04;
 /// Number of times that a piece may be halved.
 const DIVISIONS: u32 = 2;
 
+/// Blocks, each with its speed in mm/s.
+pub(super) type Parts = Vec<(Block, f64)>;
+
 impl Contouring {
-    /// The blocks of a curve, each with its speed in mm/s. Each part has the feed rate of the block that it belongs to, unless the
+    /// The blocks of a curve. Each part has the feed rate of the block that it belongs to, unless the
     /// speed in the curve is to be constant.
     ///
     /// Assumption: the documents do not mention different feed rates; the feed rate changes where the block ends.
@@ -29,7 +32,7 @@ impl Contouring {
         to: &Block,
         curve: &Curve,
         settings: &ContourSettings,
-    ) -> Vec<(Block, f64)> {
+    ) -> Parts {
         let mut block = from.clone();
         block.contour = None;
         let halves = feeds(from, to, settings);
@@ -137,7 +140,7 @@ fn feeds(from: &Block, to: &Block, settings: &ContourSettings) -> [(Feed, f64); 
 
 /// The pieces as blocks with their speeds in mm/s: neighbours with the same feed rate and the same permitted speed are one
 /// block, under a constant velocity also those with different speeds.
-fn joined(pieces: &[Timed], feed_axes: &[bool], constant_velocity: bool) -> Vec<(Block, f64)> {
+fn joined(pieces: &[Timed], feed_axes: &[bool], constant_velocity: bool) -> Parts {
     let groups = pieces.chunk_by(|one, next| {
         let same = constant_velocity || (next.v - one.v).abs() <= 1e-9 * one.v;
         let (a, b) = (&one.block, &next.block);
