@@ -305,6 +305,9 @@ impl Splining {
         }
         let leg = &self.run[edge];
         if curves.is_empty() {
+            if let Some(last) = self.held.take() {
+                last.put_out(&mut self.ready);
+            }
             self.ready.extend(straight(&leg.block, &leg.parts));
         } else {
             let mut stretches = Stretch::over(leg.parts.iter().cloned(), curves);

@@ -8,7 +8,7 @@ pub(crate) const MOST_SAMPLES: usize = 1 << 18;
 const PADDING: usize = 8;
 
 /// Single-sided amplitude spectrum under a Hann window: a sine of amplitude 1 over the whole recording has the height
-/// 1; the straight line through the windowed recording is removed first.
+/// 1; the mean of the windowed recording is removed first.
 #[derive(Clone, Debug)]
 pub(crate) struct AmplitudeSpectrum {
     step_hz: f64,
@@ -21,19 +21,12 @@ impl AmplitudeSpectrum {
         let n = samples.len().max(1);
         let window =
             |i: usize| 0.5 - 0.5 * libm::cos(std::f64::consts::TAU * (i as f64 + 0.5) / n as f64);
-        // offset and drift, weighted by the window, so that incomplete waves leave little of either
-        let place = |i: usize| (i as f64 + 0.5) / n as f64 - 0.5;
-        let weighted = |f: &dyn Fn(usize) -> f64| (0..n).map(|i| window(i) * f(i)).sum::<f64>();
-        let (sum, moment) = samples.iter().enumerate().fold((0.0, 0.0), |(sum, moment), (i, x)| {
-            (sum + x * window(i), moment + x * window(i) * place(i))
-        });
-        let mean = sum / weighted(&|_| 1.0);
-        // a single sample has no slope
-        let spread = weighted(&|i| place(i) * place(i));
-        let slope = if spread > 0.0 { moment / spread } else { 0.0 };
+        // weighted by the window, so that incomplete waves leave no offset
+        let mean =
+            samples.iter().enumerate().map(|(i, x)| x * window(i)).sum::<f64>() / (0.5 * n as f64);
         let length = (PADDING * n).next_power_of_two();
-        let left = |(i, x): (usize, &f64)| (x - mean - slope * place(i)) * window(i);
-        let mut padded: Vec<f64> = samples.iter().enumerate().map(left).collect();
+        let mut padded: Vec<f64> =
+            samples.iter().enumerate().map(|(i, x)| (x - mean) * window(i)).collect();
         padded.resize(length, 0.0);
         let transform = RealFftPlanner::new().plan_fft_forward(length);
         let mut values = transform.make_output_vec();
@@ -57,6 +50,22 @@ impl AmplitudeSpectrum {
     pub(crate) fn peak(&self, band_hz: (f64, f64)) -> Option<[f64; 2]> {
         self.lines(band_hz).max_by(|a, b| a[1].total_cmp(&b[1]))
     }
+}
+
+/// The samples without their drift: the slope of the straight line through them, weighted by a Hann window so that
+/// incomplete waves have little influence on it.
+pub(crate) fn without_drift(samples: &[f64]) -> Vec<f64> {
+    let n = samples.len() as f64;
+    let place = |i: usize| (i as f64 + 0.5) / n - 0.5;
+    let (mut moment, mut spread) = (0.0, 0.0);
+    for (i, x) in samples.iter().enumerate() {
+        let weighted = place(i) * (1.0 + libm::cos(std::f64::consts::TAU * place(i)));
+        moment += weighted * x;
+        spread += weighted * place(i);
+    }
+    // a single sample has no slope
+    let slope = if spread > 0.0 { moment / spread } else { 0.0 };
+    samples.iter().enumerate().map(|(i, x)| x - slope * place(i)).collect()
 }
 
 #[cfg(test)]
@@ -89,7 +98,8 @@ mod tests {
             let t = 1e-3 * f64::from(k);
             0.01 * libm::sin(std::f64::consts::TAU * 17.3 * t) + 3.0 + 7.0 * t
         };
-        let spectrum = AmplitudeSpectrum::of(&(0..800).map(sample).collect::<Vec<_>>(), 1e-3);
+        let spectrum =
+            AmplitudeSpectrum::of(&without_drift(&(0..800).map(sample).collect::<Vec<_>>()), 1e-3);
         let [f, a] = spectrum.peak((2.0, 100.0)).unwrap();
         assert!((f - 17.3).abs() < 0.1 && (a - 0.01).abs() < 1e-4, "{f} {a}");
         assert!(spectrum.peak((0.0, 12.0)).unwrap()[1] < 2e-4);

@@ -71,7 +71,7 @@ impl Default for Patience {
 
 impl Patience {
     /// One cycle at a distance from the required position (signed); true when the axis will not get there. A standstill
-    /// is observed over the settling time, or 1 s without one.
+    /// is observed over the settling time, or 1 s without one; ten times as long if the axis still creeps.
     pub(super) fn is_over(
         &mut self,
         distance_mm: f64,

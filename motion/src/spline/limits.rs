@@ -108,8 +108,12 @@ pub(super) fn settle(
     let mut parts = piece::divided(pieces, cuts).into_iter().peekable();
     for stretch in std::iter::once(before).chain(after) {
         let Some(pieces) = parts.next() else { return };
-        let inner = pieces.last().filter(|_| parts.peek().is_some());
-        let to = inner.map_or_else(|| end.clone(), |last| piece::point(last, 1.0));
+        // a block shorter than rounding has none
+        let Some(last) = pieces.last() else {
+            stretch.curves.clear();
+            continue;
+        };
+        let to = if parts.peek().is_some() { piece::point(last, 1.0) } else { end.clone() };
         let from = std::mem::replace(&mut start, to.clone());
         stretch.curves = pace::curves(&stretch.part.block, pieces, [from, to], cycle);
     }

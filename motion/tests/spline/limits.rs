@@ -57,6 +57,11 @@ fn blocks_end_next_to_their_points() {
                 assert!(worst < 3e-3, "{seed} {path_dev_mm}: {worst}");
                 let [position, tangent, _] = gaps(&blocks, &sharp);
                 assert!(position < 1e-11 && tangent < 1e-9, "{seed}: {position} {tangent}");
+                for path in blocks.iter().map(|block| &block.path) {
+                    let s = 1e-6 * path.length();
+                    let near = vector(path, |p, v| p.position(s, v));
+                    assert!(apart(path.start(), &near) < 1e-3, "{seed}: {:?}", path.start());
+                }
             }
         }
     }

@@ -49,7 +49,8 @@ pub struct SweepArgs {
     pub columns: Vec<String>,
 
     /// Additional result: the maximum amplitude of a column of the trace between two frequencies in Hz, over the whole run
-    /// or between two times in s: `X_tcp_acc_mm_s2@50..56@1..2`
+    /// or between two times in s: `X_tcp_acc_mm_s2@50..56@1..2`. The mean is removed, and, where the lowest frequency has at
+    /// least 2.5 waves, the drift
     #[arg(long, value_name = "COLUMN@HZ..HZ[@S..S]")]
     pub amplitude: Vec<Amplitude>,
 

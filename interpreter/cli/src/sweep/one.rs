@@ -6,7 +6,7 @@ use crate::args::{Amplitude, SweepArgs};
 use crate::combinations::put;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened, Request};
-use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES};
+use crate::spectrum::{AmplitudeSpectrum, MOST_SAMPLES, without_drift};
 use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::record::{Asked, Rows};
@@ -31,6 +31,9 @@ struct Collected<'a> {
     cycle_s: f64,
     wanted: Vec<Wanted<'a>>,
 }
+
+/// Smallest number of waves in the recording from which on its drift is removed.
+const WAVES: f64 = 2.5;
 
 /// A column with a requested amplitude.
 struct Wanted<'a> {
@@ -106,8 +109,14 @@ fn one(args: &SweepArgs, request: &Request) -> Result<Outcome, Failure> {
     let amplitudes = wanted.iter().map(|Wanted { amplitude, samples, .. }| {
         let whole =
             amplitude.window_s.is_none_or(|(_, end)| summary.cycles() as f64 * cycle_s > end);
-        let peak =
-            AmplitudeSpectrum::of(samples, cycle_s).peak(amplitude.band_hz).filter(|_| whole);
+        // a line through fewer waves would follow them
+        let waves = amplitude.band_hz.0 * samples.len() as f64 * cycle_s;
+        let spectrum = if waves < WAVES {
+            AmplitudeSpectrum::of(samples, cycle_s)
+        } else {
+            AmplitudeSpectrum::of(&without_drift(samples), cycle_s)
+        };
+        let peak = spectrum.peak(amplitude.band_hz).filter(|_| whole);
         peak.map_or(f64::NAN, |p| p[1])
     });
     let amplitudes = amplitudes.collect();

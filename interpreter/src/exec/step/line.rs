@@ -41,16 +41,14 @@ impl Line {
         self.send(true).then(|| self.answers.recv().ok())?
     }
 
-    /// Hands over a step; false if nobody takes it any more. What the machine has left is added to `spare`, not in every call.
+    /// Hands over a step; false if nobody takes it any more. What the machine has left is added to `spare` sooner or later.
     pub(in crate::exec) fn push(&mut self, decoded: Decoded, spare: &mut SpareBlocks) -> bool {
         self.asked = false;
         self.decoded.push(decoded);
-        if self.decoded.len() < STEPS {
-            return true;
+        if !self.spare.is_empty() {
+            spare.append(&mut self.spare);
         }
-        let sent = self.send(false);
-        spare.append(&mut self.spare);
-        sent
+        self.decoded.len() < STEPS || self.send(false)
     }
 
     /// Hands over what was decoded; `asks`: the program waits for an answer. False if nobody takes it any more.

@@ -14,6 +14,8 @@ const UNMONITORED: [f64; 2] = [0.2, 5.0];
 /// arc, where points next to each other turn in the same direction: an arc in coarse chords is not a row of corners.
 const CORNER_RAD: f64 = 0.35;
 const ARC_RAD: f64 = 0.7;
+/// Shortest chord in mm of such an arc: a fit through shorter ones, as at a chamfer, bends more than the corners.
+const ARC_MM: f64 = 0.3;
 const GRAIN_MM: f64 = 1e-3;
 /// Second derivatives of neighbours in the same direction, as a share of the one at a point, below which the point is not
 /// part of a curve.
@@ -116,7 +118,7 @@ impl Row<'_> {
         }
         let angle = 2.0 * libm::atan2(f64::sqrt(jump2), f64::sqrt(sum2));
         let angle = angle - 2.0 * GRAIN_MM * (h.recip() + k.recip());
-        angle > CORNER_RAD && (angle > ARC_RAD || self.turns_alone(i))
+        angle > CORNER_RAD && (angle > ARC_RAD || h.min(k) < ARC_MM || self.turns_alone(i))
     }
 
     /// Whether the path turns at a point, but not at the next one on either side as on an arc.
@@ -163,15 +165,14 @@ impl Row<'_> {
     /// round a kink there.
     pub(super) fn room(&self, i: usize, at_kink: bool) -> [f64; 2] {
         let settings = &self.chord(i).settings;
-        let [path, mut track] = rooms(settings);
-        if at_kink {
-            track = track.max(AT_KINKS * self.chord(i).left()[1]);
-        }
+        let [path, track] = rooms(settings);
         // along the path the other axes follow the feed group
         let (p, q) = (&self.vertices[i].point, &self.vertices[i + 1].point);
         let fastest = self.groups[1].iter().map(|k| (q[*k] - p[*k]).abs()).fold(0.0, f64::max);
         let follows = settings.track_dev_deg > 0.0 && fastest > 0.0;
         let follow = if follows { track * self.length(i) / fastest } else { path };
+        // a shift along the path adds to what they deviate themselves
+        let track = if at_kink { track.max(AT_KINKS * self.chord(i).left()[1]) } else { track };
         [path.min(follow), track]
     }
 }
