@@ -2,7 +2,8 @@
 //!
 //! At the end of every block with [`Block::contour`] the corner is replaced by a curve ([`blend`]): the block and the
 //! next relevant one are shortened by the corner distances, and each part of the curve gets the number of the block that it
-//! belongs to ([`BlockLimit`](crate::block::BlockLimit)). Where that is not possible the corner is kept as programmed, and a [`Notice`] gives the reason.
+//! belongs to ([`BlockLimit`](crate::block::BlockLimit)). Where that is not possible the corner is kept as programmed, and a
+//! [`Notice`] gives the reason.
 //! The stage holds one such block and the blocks after it that are too short to be relevant, at most [`SKIPPED`] of them.
 //!
 //! Order of calls: [`Contouring::push`] for each block returns the final blocks and curves; [`Contouring::flush`] where
