@@ -7,7 +7,8 @@
 //! passed over follow it with their lengths. Nothing else depends on it: the corners are judged ([`super::worth`]) with
 //! the limits at their knots, and a programmed duration is shared among the parts of its block with their lengths there.
 //!
-//! In a fit, at a corner with control points of its own and at a sharp one the limit is at its point in any case.
+//! At a corner with control points of its own and at a sharp one the limit is at its point in any case; in a fit it is where the
+//! parameter is that of the point.
 
 use super::edge::{Curve, Part};
 use super::pace;

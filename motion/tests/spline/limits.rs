@@ -30,11 +30,18 @@ fn misplaced(blocks: &[Block], points: &[Vec<f64>]) -> f64 {
         let mut least = f64::INFINITY;
         for block in pair.iter().flat_map(|blocks| blocks.iter()) {
             let length = block.path.length();
-            for k in 0..=1000 {
-                let s = length * f64::from(k) / 1000.0;
-                let distance = apart(&vector(&block.path, |p, v| p.position(s, v)), point);
-                least = least.min(distance);
+            let distance = |s: f64| {
+                apart(&vector(&block.path, |p, v| p.position(s.clamp(0.0, length), v)), point)
+            };
+            // samples, and more around the best one
+            let (mut best, mut step) = (0.5 * length, 0.5 * length / 200.0);
+            for _ in 0..3 {
+                let places = (-200..=200).map(|k| best + step * f64::from(k));
+                let nearer = |a: &f64, b: &f64| distance(*a).total_cmp(&distance(*b));
+                best = places.min_by(nearer).unwrap_or(best).clamp(0.0, length);
+                step /= 100.0;
             }
+            least = least.min(distance(best));
         }
         worst = worst.max(end - least);
     }

@@ -136,6 +136,34 @@ fn coarse_chords_of_a_small_arc_are_no_corners() {
     }
 }
 
+/// Two to four corners between lines of 10 mm: a larger tolerance costs at most a fortieth, whether they are corners or points of a
+/// small arc.
+#[test]
+fn chamfers_in_a_larger_tolerance() {
+    let job = machine();
+    for (corners, turn_deg) in [(2, 24.0), (2, 38.0), (3, 24.0), (3, 38.0), (4, 30.0)] {
+        for chord in [0.05, 0.1, 0.14, 0.2, 0.25, 0.35, 0.5, 1.0] {
+            let (mut heading, mut p) = (0.0_f64, [0.0, 0.0]);
+            let mut points = vec![p.to_vec()];
+            for i in 0..=corners {
+                let length = if i == 0 || i == corners { 10.0 } else { chord };
+                let (sin, cos) = libm::sincos(heading);
+                p = [p[0] + length * cos, p[1] + length * sin];
+                points.push(p.to_vec());
+                heading += f64::to_radians(turn_deg);
+            }
+            let [small, large] = [0.02, 0.1].map(|path_dev_mm| {
+                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                let blocks = splined(&job, settings, &points, FEED_MM_S);
+                job.run(&points[0], blocks.into_iter()).len()
+            });
+            let what = format!("{corners} of {turn_deg} deg, {chord} mm: {large}, {small}");
+            println!("{what}");
+            assert!(large <= small + small / 40, "{what}");
+        }
+    }
+}
+
 /// A slot: behind an arc in short chords a long line, its middle straight.
 #[test]
 fn a_line_behind_an_arc_stays_straight() {

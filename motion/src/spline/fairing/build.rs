@@ -300,7 +300,7 @@ impl Built {
             let bounds = certificate::bounds(&spline, &at, &points);
             for (datum, bound) in self.data[first..].iter().zip(&bounds) {
                 // also fails where the bound is not a number
-                let kept = *bound <= row.chord(datum.vertex).left()[group];
+                let kept = *bound <= row.chord(datum.vertex).left_to_fit()[group];
                 failed.extend((!kept).then_some(datum.vertex));
             }
             ends[0][group] = near_corner(&at, &bounds, &spline, axes.len(), false);

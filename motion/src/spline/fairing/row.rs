@@ -76,6 +76,13 @@ impl Chord {
         let dev = tolerances(&self.settings);
         [dev[0] - self.off[0], dev[1] - self.off[1]]
     }
+
+    /// What a fit may deviate at equal parameters: the axes outside the feed group also follow a shift of the others along
+    /// the path ([`Row::room`]).
+    pub(super) fn left_to_fit(&self) -> [f64; 2] {
+        let [path, track] = self.left();
+        [path, track - rooms(&self.settings)[1]]
+    }
 }
 
 /// A kept point.
