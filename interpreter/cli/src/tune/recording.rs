@@ -129,13 +129,33 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
     if found.clipped > 0 {
         notes.push(format!("{} samples at the limit of the recorder, ignored", found.clipped));
     }
+    let times = |starts: &mut dyn Iterator<Item = usize>| {
+        let times: Vec<_> = starts.map(|i| format!("{:.2} s", i as f64 / rate_hz)).collect();
+        times.join(", ")
+    };
+    if !found.jumps.is_empty() {
+        notes.push(format!(
+            "its level jumps at {}; the parts are evaluated one by one",
+            times(&mut found.jumps.iter().copied())
+        ));
+    }
+    if let Some(steps) = found.steps {
+        notes.push(format!(
+            "the recorder resolves its amplitude in {} steps only: what is below them is ignored, and the intervals are \
+             too small; record it with a finer resolution",
+            number(steps, 0)
+        ));
+    }
+    if found.modes.first().is_some_and(|m| m.peak_ratio < 1.0) {
+        notes.push(
+            "the highest peak is that of a transient, not of a vibration: an excitation, a jump or a drift; select a \
+             free decay with --window"
+                .to_owned(),
+        );
+    }
     if found.decays.len() > 1 {
-        let times: Vec<String> = found
-            .decays
-            .iter()
-            .map(|d| format!("{:.2} s", d.samples.start as f64 / rate_hz))
-            .collect();
-        notes.push(format!("{} decays, from {}", times.len(), times.join(", ")));
+        let starts = times(&mut found.decays.iter().map(|d| d.samples.start));
+        notes.push(format!("{} decays, from {starts}", found.decays.len()));
     }
     if let Some(misfit) = found.misfit {
         notes.push(format!(

@@ -21,6 +21,7 @@ mod analysis;
 mod detect;
 mod fit;
 mod hits;
+mod jumps;
 mod part;
 
 pub use analysis::{Analysis, Decay, Lasting, Mode};
@@ -39,6 +40,14 @@ const LEAST_LASTING_RATIO: f64 = 1e-3;
 const MOST_DAMPING: f64 = 0.3;
 /// Number of successive samples at the limit that count as clipped.
 const CLIPPED: usize = 3;
+/// Swing in steps of the recorder below which rounding without noise distorts a vibration too much.
+const LEAST_STEPS: f64 = 1.5;
+/// More steps within the swing make the intervals hardly wrong.
+const FINE: f64 = 30.0;
+/// Number of samples of a recording for each of its values, from which on the recorder has steps.
+const SAMPLES_PER_VALUE: usize = 8;
+/// Difference of equal values, as a share of the range: their decimals.
+const SAME_VALUE: f64 = 1e-5;
 
 /// The part to examine.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,8 +82,11 @@ pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &
         part.fill(false);
     }
     let mut all: Vec<(Analysis, f64)> = Vec::new();
-    for decay in hits::decays(samples, rate_hz, focus.range_hz).into_iter().take(MOST_DECAYS) {
-        let mut found = of_decay(samples, &valid, rate_hz, focus.range_hz, decay);
+    let step = resolution(samples);
+    let parts = jumps::between(samples, rate_hz, step);
+    let decays = hits::decays(samples, &parts, rate_hz, focus.range_hz);
+    for decay in decays.into_iter().take(MOST_DECAYS) {
+        let mut found = of_decay(samples, &valid, rate_hz, focus.range_hz, decay, step);
         for decay in &mut found.decays {
             decay.samples = decay.samples.start + first..decay.samples.end + first;
         }
@@ -84,6 +96,7 @@ pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &
     let mut all = all.into_iter().map(|(found, _)| found);
     let mut result = all.next().unwrap_or_default();
     result.clipped = clipped;
+    result.jumps = parts.iter().skip(1).map(|part| part.start + first).collect();
     for other in all {
         result.merge(other);
     }
@@ -109,13 +122,49 @@ fn unclipped(samples: &[f64]) -> Vec<bool> {
     valid
 }
 
+/// The step between the values of a recorder, 0 if there are nearly as many values as samples.
+fn resolution(samples: &[f64]) -> f64 {
+    let mut sorted = samples.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let range = sorted[sorted.len() - 1] - sorted[0];
+    let steps = || sorted.windows(2).map(|w| w[1] - w[0]).filter(|step| *step > SAME_VALUE * range);
+    let is_stepped = steps().count() < samples.len() / SAMPLES_PER_VALUE;
+    if is_stepped { steps().fold(range, f64::min) } else { 0.0 }
+}
+
+/// Half the difference between the largest and the smallest sample.
+fn height(samples: &[f64]) -> f64 {
+    let ends = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
+    let (low, high) = samples.iter().fold((f64::MAX, f64::MIN), ends);
+    0.5 * (high - low)
+}
+
+/// The beginning of a decay that a recorder resolves, if its noise does not make the rounding random: most samples equal
+/// the ones before.
+fn resolved(samples: &[f64], decay: &Range<usize>, step: f64) -> Option<Range<usize>> {
+    let of = &samples[decay.clone()];
+    let equal = of.windows(2).filter(|w| (w[1] - w[0]).abs() < 0.5 * step).count();
+    if step <= 0.0 || 2 * equal < of.len() {
+        return None;
+    }
+    let mut sorted = of.to_vec();
+    let middle = sorted.len() / 2;
+    let level = *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let last = of.iter().rposition(|x| (x - level).abs() > LEAST_STEPS * step)?;
+    Some(decay.start..decay.start + (last + 1).max(64).min(of.len()))
+}
+
 fn of_decay(
     samples: &[f64],
     valid: &[bool],
     rate_hz: f64,
     range_hz: (f64, f64),
-    range: Range<usize>,
+    decay: Range<usize>,
+    step: f64,
 ) -> Analysis {
+    let coarse = resolved(samples, &decay, step);
+    let steps = coarse.as_ref().map(|range| height(&samples[range.clone()]) / step);
+    let range = coarse.unwrap_or(decay);
     let top_hz = range_hz.1.min(400.0).min(0.4 * rate_hz);
     let cut = |range: &Range<usize>| piece(samples, valid, rate_hz, range, top_hz);
     let part = |range: Range<usize>, most| Part::of(range, cut, range_hz, most);
@@ -147,6 +196,8 @@ fn of_decay(
         modes,
         decays: vec![Decay { samples: range, curve: fit.curve(&used), stride }],
         clipped: 0,
+        jumps: Vec::new(),
+        steps: steps.filter(|steps| *steps < FINE),
         disagree: None,
         misfit: Some(fit.misfit(&used)).filter(|misfit| *misfit > MISFIT),
     }

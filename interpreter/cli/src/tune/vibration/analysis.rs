@@ -53,6 +53,11 @@ pub struct Analysis {
     pub swing: f64,
     /// Samples at the limit of the recorder.
     pub clipped: usize,
+    /// First samples after jumps of the level.
+    pub jumps: Vec<usize>,
+    /// Steps of the recorder within the amplitude, if they are few and coarser than the noise: then the rounding of the
+    /// samples is no white noise, and the intervals are too small.
+    pub steps: Option<f64>,
     /// Lowest and highest frequency in Hz if the decays disagree.
     pub disagree: Option<(f64, f64)>,
     /// Residual of the fit as a multiple of the white noise of the recording, if it is more than noise: a drive that

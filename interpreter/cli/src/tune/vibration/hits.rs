@@ -107,8 +107,29 @@ fn without_hum(samples: &mut [f64], rate_hz: f64) {
     }
 }
 
-/// Free decays of a recording, the most energetic first: from a blow to the next one.
-pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<Range<usize>> {
+/// Free decays of the parts of a recording, the most energetic first. In each part its level does not jump.
+pub(super) fn decays(
+    samples: &[f64],
+    parts: &[Range<usize>],
+    rate_hz: f64,
+    range_hz: (f64, f64),
+) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    for part in parts {
+        if part.len() >= LEAST_SAMPLES {
+            let of_part = decays_of_part(&samples[part.clone()], rate_hz, range_hz);
+            let place = |r: Range<usize>| part.start + r.start..part.start + r.end;
+            found.extend(of_part.into_iter().map(|(energy, range)| (energy, place(range))));
+        }
+    }
+    let most = found.iter().map(|p| p.0).fold(0.0, f64::max);
+    found.retain(|p| p.0 >= LEAST_ENERGY * most);
+    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.into_iter().map(|p| p.1).collect()
+}
+
+/// Free decays of one part, with their energies: from a blow to the next one.
+fn decays_of_part(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<(f64, Range<usize>)> {
     let mut clean = without_drift(samples);
     without_hum(&mut clean, rate_hz);
     let n = clean.len();
@@ -118,7 +139,7 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
     let loudest =
         |samples: &[f64]| detect::strongest(samples, &vec![true; samples.len()], rate_hz, range_hz);
     let loudest = loudest(&clean).or_else(|| parts().find_map(loudest));
-    let Some(loudest) = loudest else { return std::iter::once(0..n).collect() };
+    let Some(loudest) = loudest else { return vec![(clean.iter().map(|x| x * x).sum(), 0..n)] };
     let period = (rate_hz / loudest.freq_hz).max(1.0);
     let window = ((4.0 * period).max(WINDOW_S * rate_hz) as usize).clamp(1, (n / 4).max(1));
     let mut sums = vec![0.0; n + 1];
@@ -157,7 +178,7 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
         starts.push(top.unwrap_or(0));
     }
     let ends: Vec<usize> = starts.iter().skip(1).copied().chain([n]).collect();
-    let mut pieces: Vec<(f64, Range<usize>)> = starts
+    starts
         .iter()
         .zip(ends)
         .filter_map(|(start, end)| {
@@ -169,9 +190,5 @@ pub(super) fn decays(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec
                 if end < n { end.saturating_sub((0.05 * window as f64) as usize) } else { end };
             (end > top + LEAST_SAMPLES).then(|| (sums[end] - sums[top], top + 1..end))
         })
-        .collect();
-    let most = pieces.iter().map(|p| p.0).fold(0.0, f64::max);
-    pieces.retain(|p| p.0 >= LEAST_ENERGY * most);
-    pieces.sort_by(|a, b| b.0.total_cmp(&a.0));
-    pieces.into_iter().map(|p| p.1).collect()
+        .collect()
 }

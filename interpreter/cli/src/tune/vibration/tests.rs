@@ -196,6 +196,50 @@ fn a_vibration_at_the_mains_frequency_decays() {
     assert!((of.modes[0].damping.value / 0.02 - 1.0).abs() < 0.1, "{of:?}");
 }
 
+/// A jump of the level, over one sample or a few, changes nothing but the part that is evaluated: a sensor that is set to
+/// zero, a load that is put down.
+#[test]
+fn a_jump_of_the_level_is_no_vibration() {
+    let mut r = Random::new(11);
+    for case in 0..30 {
+        let (f, z) = (r.log(8.0, 60.0), r.log(0.01, 0.06));
+        let (at, edge_s) = (r.between(0.8, 2.6), [0.0, 0.004][case % 2]);
+        let high = r.log(0.3, 5.0) * if r.ratio() < 0.5 { -1.0 } else { 1.0 };
+        let blow = |t: f64| if t < 0.2 { 0.0 } else { swing(t - 0.2, (f, z), 0.3) };
+        let jump = |t: f64| if t < at { 0.0 } else { ((t - at) / edge_s).min(1.0) };
+        let of = found(|t| blow(t) + high * jump(t), 0.01);
+        let what = format!(
+            "{case}: {f:.3} Hz, {z:.4}, {high:.3} at {at:.3} s: {:?}, {:?}",
+            of.modes, of.jumps
+        );
+        let [mode] = of.modes[..] else { panic!("{what}") };
+        assert!((mode.freq.value / f - 1.0).abs() < 0.01, "{what}");
+        assert!((mode.damping.value / z - 1.0).abs() < 0.1, "{what}");
+        assert!(mode.peak_ratio >= 1.0, "{what}");
+        let [jumped] = of.jumps[..] else { panic!("{what}") };
+        assert!((jumped as f64 * 1e-3 - at).abs() < 0.015, "{what}");
+    }
+}
+
+/// A recorder with few steps and no noise: the vibration below its steps is not evaluated, where it would be a row of
+/// rectangles.
+#[test]
+fn a_coarse_recorder_splits_no_vibration() {
+    let mut r = Random::new(12);
+    for _ in 0..30 {
+        let (f, z, steps) = (r.log(8.0, 60.0), r.log(0.015, 0.06), r.between(5.0, 25.0));
+        let (phase, level) = (r.between(0.0, TAU), r.between(-1.0, 1.0));
+        let rounded = |x: f64| (x * steps).round() / steps;
+        let blow = |t: f64| if t < 0.2 { level } else { level + swing(t - 0.2, (f, z), phase) };
+        let of = found(|t| rounded(blow(t)), 0.0);
+        let what = format!("{f:.3} Hz, {z:.4}, {steps:.1} steps: {:?}, {:?}", of.modes, of.jumps);
+        let [mode] = of.modes[..] else { panic!("{what}") };
+        assert!((mode.freq.value / f - 1.0).abs() < 0.01, "{what}");
+        assert!((mode.damping.value / z - 1.0).abs() < 0.2, "{what}");
+        assert!(of.steps.is_some_and(|found| (found / steps - 1.0).abs() < 0.35), "{what}");
+    }
+}
+
 /// Missing samples are not made up: with a tenth of the samples missing in places, or half a second in the middle of
 /// the decay, the vibration is found as accurately as the samples permit; interpolation across the gap would distort
 /// it.
