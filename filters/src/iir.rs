@@ -332,7 +332,7 @@ fn check(config: &FilterConfig, cycle: CycleTime) -> (FilterConfig, Vec<FilterIs
         let sampling_hz = 1.0 / cycle.seconds();
         let (min_hz, max_hz) = (LOWEST_FREQUENCY_RATIO * sampling_hz, 0.5 * sampling_hz);
         let f_hz = config.f_hz;
-        if !(0.0..max_hz).contains(&f_hz) {
+        if f_hz.is_nan() || f_hz >= max_hz {
             issues.push(FilterIssue::Frequency { f_hz, min_hz: 0.0, max_hz });
         } else if f_hz < min_hz {
             config.f_hz = min_hz;

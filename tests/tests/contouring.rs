@@ -130,3 +130,33 @@ fn what_touches_is_not_contoured() {
         }
     }
 }
+
+/// A software limit a micrometre inside the highest position of a run is reported before it moves, one a micrometre outside is
+/// not: the curve through an interim point leaves the range of its lines, in its first half as well as in its second.
+#[test]
+fn a_curve_passes_no_software_limit_in_silence() {
+    let mut random = Random::new(seed());
+    let mut beyond = 0;
+    for _ in 0..count(40) {
+        let pre_post = [random.between(1.0, 4.0), random.between(1.0, 4.0)];
+        let mode = format!("POS PRE_DIST={:.2} POST_DIST={:.2}", pre_post[0], pre_post[1]);
+        let corners = 1 + (random.ratio() * 3.0) as usize;
+        let mut program = format!("#CONTOUR MODE ON [{mode}]\nG01 X10 F300\n");
+        for _ in 0..corners {
+            let (x, y) = (random.between(2.0, 10.0), random.between(-10.0, 10.0));
+            program.push_str(&format!("X{x:.3} Y{y:.3}\n"));
+        }
+        program.push_str("#CONTOUR MODE OFF\nM30\n");
+        let free = run(&program, &[]);
+        assert!(!free.totals.aborted, "{program}{:?}", free.diagnostics);
+        let highest = free.records.iter().map(|r| r.axes[0].ipo).fold(0.0, f64::max);
+        beyond += usize::from(highest > 10.01);
+        for (limit_mm, fails) in [(highest - 1e-3, true), (highest + 1e-3, false)] {
+            let limit = format!("X.kenngr.swe_pos={:.0}", limit_mm * 1e4);
+            let found = run(&program, &[limit.as_str()]);
+            let told = found.diagnostics.iter().any(|d| d.id == Condition::OutsideMotionRange);
+            assert_eq!(told, fails, "{limit}\n{program}{:?}", found.diagnostics);
+        }
+    }
+    assert!(beyond > 10, "{beyond}");
+}

@@ -59,6 +59,8 @@ pub(super) struct Contour {
     pub(super) akima: Akima,
     interim: Interim,
     driven: Vec<Driven>,
+    /// Whether the last motion was compensated: the next one departs from where it ended.
+    compensated: bool,
     /// Control areas violated by motions since the last call.
     violations: Vec<Fault>,
     blocks: u64,
@@ -359,6 +361,7 @@ impl Contour {
         let mut faults = self.flush();
         let left = self.compensator.leave(&mut self.done);
         self.emit();
+        self.compensated = false;
         let left = left.unwrap_or_else(|fault| {
             faults.push(*fault);
             None

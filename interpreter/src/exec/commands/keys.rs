@@ -151,7 +151,7 @@ pub(in crate::exec) fn read_all(
         match read(decoder, title, item, keys) {
             Ok(None) => {}
             Ok(Some((name, _))) if found.get(name).is_some() => {
-                let text = format!("{title}: {name} given twice, the second one is ignored");
+                let text = format!("{title}: {name} given twice");
                 decoder.report.note(Fault::new(key_twice(title), text, item.span));
             }
             Ok(Some((name, written))) => found.push(name, written, item.span),

@@ -50,6 +50,7 @@ impl Interim {
             return None;
         }
         let mut block = Block { seq: self.next, ..Block::clone(&motion.block) };
+        let is_curve = matches!(block.path, Path::Curve(_));
         if leads_on(&block) {
             self.before.push_back((self.next, motion.source, motion.span));
         } else {
@@ -61,14 +62,14 @@ impl Interim {
             while self.before.front().is_some_and(|(seq, ..)| *seq < made.seq) {
                 self.before.pop_front();
             }
-            let (Path::Curve(curve), Some((seq, source, span))) = (&made.path, self.before.front())
-            else {
-                continue;
+            let Path::Curve(curve) = &made.path else { continue };
+            // the second half of a curve may belong to this motion, whose own path was checked before
+            let (source, span) = match self.before.front() {
+                _ if made.seq + 1 == self.next && is_curve => continue,
+                Some((seq, source, span)) if *seq == made.seq => (source, span),
+                Some(_) => continue,
+                None => (&motion.source, &motion.span),
             };
-            // the remainder of a motion that is itself a curve was checked before
-            if made.seq != *seq || made.seq + 1 == self.next {
-                continue;
-            }
             let extents = (0..curve.start().len()).map(|axis| curve.extent(axis));
             match &mut driven {
                 None => {

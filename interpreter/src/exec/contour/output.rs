@@ -79,7 +79,9 @@ impl Contour {
                 let Motion { block, source, span, .. } = &**motion;
                 let axes = 0..block.path.start().len();
                 let extents = axes.map(|axis| block.path.extent(axis));
-                if motion.compensation.is_some()
+                let compensated = motion.compensation.is_some();
+                let departs = std::mem::replace(&mut self.compensated, compensated);
+                if (compensated || departs)
                     && let Some(extents_mm) = extents.collect()
                 {
                     self.driven.push(Driven { extents_mm, source: *source, span: *span });

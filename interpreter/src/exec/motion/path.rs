@@ -195,8 +195,8 @@ impl Decoder {
             let text = "tool radius compensation starts with an arc while #OTC is on";
             return Err(Fault::new(Condition::WearSelectedInArc, text, span));
         }
-        // the path with tool radius compensation is known only later
-        if self.modal.compensation == Compensation::Off {
+        // the path with tool radius compensation, and that of the departure from it, is known only later
+        if self.modal.compensation == Compensation::Off && !self.contour.compensates() {
             let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
             self.check_limits(&path, place, span);
         }
