@@ -2,6 +2,7 @@
 //! end.
 
 use super::fault;
+use super::inputs::SpeedChange;
 use super::state::{Phase, Probing, Simulation};
 use crate::diag::Diagnostic;
 use kontur_motion::independent::Steering;
@@ -40,14 +41,15 @@ impl Simulation {
         self.planner.feedhold(self.inputs.feedhold || probed, braking);
     }
 
-    /// K-0132, once for each thread: the path does not follow the spindle.
+    /// K-0132, for each thread once for a feedhold and once for an override: the path does not follow the spindle.
     pub(super) fn watch_thread(&mut self) {
         let Some(thread) = &mut self.thread.cut else { return };
-        let why = self.inputs.changes_speed(thread.full_override);
-        if let (Some(why), false) = (why, thread.broken)
-            && matches!(self.phase, Phase::Running)
-        {
-            thread.broken = true;
+        let Some(why) = self.inputs.changes_speed(thread.full_override) else { return };
+        let told = match why {
+            SpeedChange::Feedhold => &mut thread.held,
+            SpeedChange::Override(_) => &mut thread.scaled,
+        };
+        if matches!(self.phase, Phase::Running) && !std::mem::replace(told, true) {
             let at = self.blocks.current;
             let mut d = fault::thread_broken(why, self.planner.setpoint().k, self.cycle);
             d.source = self.program.locate(at);

@@ -63,8 +63,9 @@ pub(in crate::sim) struct Underway {
 pub(in crate::sim) struct Thread {
     /// Whether the override has no effect on it.
     pub(in crate::sim) full_override: bool,
-    /// Whether its pitch has changed, which is reported once.
-    pub(in crate::sim) broken: bool,
+    /// Whether a feedhold has stopped the path in it, and whether an override has scaled its pitch; each is reported once.
+    pub(in crate::sim) held: bool,
+    pub(in crate::sim) scaled: bool,
 }
 
 /// Continuation after the path has come to rest.

@@ -168,7 +168,7 @@ impl Simulation {
             return;
         };
         if let Some(AwaitedMark { spindle, deg, full_override }) = wait.mark() {
-            self.thread.cut = Some(Thread { full_override, broken: false });
+            self.thread.cut = Some(Thread { full_override, held: false, scaled: false });
             let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
             self.thread.delay = share.unwrap_or(0.0);
             self.thread.planned.copy_from_slice(&self.path_position);

@@ -4,7 +4,7 @@
 //!
 //! Source: TF5200 programming manual 206730251, 208157451; diagnosis 60285 (259710859), 3210 (249505419).
 //!
-//! Assumptions: the path and the axes come to rest before the change; gantry slaves keep their own stage; a spindle is at rest
+//! Assumptions: the path comes to rest and the axes are in position (P-AXIS-00236) before the change; gantry slaves keep their own stage; a spindle is at rest
 //! after M5, whether or not its ramp has ended, and the change waits for the end of the ramp.
 
 use crate::diag::{Condition, ValueKind};
@@ -31,7 +31,9 @@ impl Decoder {
             select(&mut machine.axes[*axis], *number, *span)?;
             let axis_number = machine.axes[*axis].number();
             if machine.axes[*axis].gear() != before {
+                // a following error would become another speed command with the other gain
                 self.sync(Sync::FlushWait);
+                self.sync(Sync::ExactStop { alone: true });
                 self.report_consequences(*axis, &known, *span);
                 self.axis_changes(axis_number, *span);
             }

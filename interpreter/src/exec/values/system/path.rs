@@ -26,6 +26,16 @@ impl Path<'_> {
         Ok(Value::Number(f(d, axis) / d.modal.axis_unit(&d.machine.axes[axis])))
     }
 
+    /// A position, of a modulo axis within its range.
+    pub(super) fn wrapped(
+        &self,
+        d: &Decoder,
+        at: usize,
+        f: impl Fn(&Decoder, usize) -> f64,
+    ) -> Outcome<Value> {
+        self.position(d, at, |d, a| d.machine.axes[a].in_modulo_range(f(d, a)))
+    }
+
     /// A coordinate of the program, of a modulo axis within its range. Refused for a scaled axis, because the documents do not
     /// specify whether it is the coordinate before or after scaling.
     pub(super) fn coordinate(
@@ -39,7 +49,7 @@ impl Path<'_> {
             let name = written(self.segments);
             return Err(Fault::unsupported(format!("V.{name} with #SCALE"), self.span));
         }
-        self.position(d, at, |d, a| d.machine.axes[a].in_modulo_range(f(d, a)))
+        self.wrapped(d, at, f)
     }
 
     /// Position of an axis with all offsets, of a modulo axis within its range; 21784 for an axis that follows a master.
@@ -49,9 +59,7 @@ impl Path<'_> {
             let text = format!("axis {} follows a master", d.names.name(axis));
             return Err(Fault::new(Condition::AxisPositionOfSlave, text, self.span));
         }
-        self.position(d, 3, |d, a| {
-            d.machine.axes[a].in_modulo_range(d.geometry.coordinates.target()[a])
-        })
+        self.wrapped(d, 3, |d, a| d.geometry.coordinates.target()[a])
     }
 
     /// Axis by its name in the segment `at`, or by the index after the segment before.
