@@ -233,6 +233,12 @@ fn report_draws_signals_and_variants() {
     assert_eq!(rows.len(), 1 + 2 * 40, "40 cycles of either");
     drawn("-o @s.csv --spectrum 0..100");
     assert!(f.read("s.csv").starts_with("curve,f_hz,X_set_mm,X_vel_mm_s\n"));
+    // a program that is named twice is two curves
+    let twice = "report @corner.nc @corner.nc --signals X_set_mm --window 0.01..0.05 -o @t.csv";
+    assert_eq!(f.line(twice).0, Exit::Finished);
+    let table = f.read("t.csv");
+    let second = table.lines().filter(|row| row.contains("corner.nc (2),")).count();
+    assert_eq!((table.lines().count(), second), (1 + 2 * 40, 40));
     // without --signals the contours are overlaid
     let contours = "report @corner.nc --vary X.vib_guard.mode=1,4 -o @c.svg";
     assert_eq!(f.line(contours).0, Exit::Finished);

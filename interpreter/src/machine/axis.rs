@@ -63,6 +63,11 @@ impl Axis {
         if self.is_linear() { "mm" } else { "deg" }
     }
 
+    /// Unit of its positions in the control: 0.1 um or 0.0001 deg.
+    pub fn increment(&self) -> &'static str {
+        if self.is_linear() { "0.1um" } else { "0.0001deg" }
+    }
+
     /// Linear, rotary or spindle.
     pub fn kind(&self) -> AxisKind {
         self.kind

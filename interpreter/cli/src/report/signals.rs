@@ -64,6 +64,13 @@ pub(super) fn report(
             (1, false) => values,
             (_, false) => format!("{program}, {values}"),
         };
+        // the same run once more has a curve of its own
+        let again = format!("{label} (");
+        let same = |run: &&Recorded| run.label == label || run.label.starts_with(&again);
+        let label = match runs.iter().filter(same).count() {
+            0 => label,
+            before => format!("{label} ({})", before + 1),
+        };
         let opened = request.open().map_err(|e| announce_lists(e, console))?;
         let values = runs.iter().map(Recorded::values).sum();
         let (recorded, is_aborted) = record(args, names, label, values, opened, output, console)?;

@@ -68,14 +68,15 @@ impl Limits<'_> {
             return None;
         }
         let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
+        let unit = self.machine.axes[axis].increment();
         let text =
             format!("axis {name}: the compensated position {x:.4} is outside the data format");
         Some(Fault::new(Condition::CompensatedOutsideFormat, text, span).with(|d| {
-            let d = d.axis(number, name).value(ValueKind::Wrong, x * 1e4, "0.1um");
-            d.value(ValueKind::LowerLimit, -LARGEST_MM * 1e4, "0.1um").value(
+            let d = d.axis(number, name).value(ValueKind::Wrong, x * 1e4, unit);
+            d.value(ValueKind::LowerLimit, -LARGEST_MM * 1e4, unit).value(
                 ValueKind::UpperLimit,
                 LARGEST_MM * 1e4,
-                "0.1um",
+                unit,
             )
         }))
     }
@@ -89,16 +90,16 @@ impl Limits<'_> {
         span: Span,
     ) -> Box<Fault> {
         let name = self.names.name(axis).to_owned();
-        let number = self.names.number(axis);
+        let (number, unit) = (self.names.number(axis), self.machine.axes[axis].increment());
         // increments have four decimals; digits beyond are rounding
         let shown = (x * 1e7).round() / 1e7;
         let text = format!("axis {name}: {what} {shown} is outside its limits {least} to {most}");
         let limit = if x < least { axis_general::LOWER_LIMIT } else { axis_general::UPPER_LIMIT };
         let fault = Fault::new(Condition::OutsideMotionRange, text, span).with(|d| {
             d.axis(number, name)
-                .value(ValueKind::Current, x * 1e4, "0.1um")
-                .value(ValueKind::LowerLimit, least * 1e4, "0.1um")
-                .value(ValueKind::UpperLimit, most * 1e4, "0.1um")
+                .value(ValueKind::Current, x * 1e4, unit)
+                .value(ValueKind::LowerLimit, least * 1e4, unit)
+                .value(ValueKind::UpperLimit, most * 1e4, unit)
                 .parameter(limit)
         });
         if self.machine.limits_only_warn(axis) { fault.warning() } else { fault }
