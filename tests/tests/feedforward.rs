@@ -148,25 +148,3 @@ fn a_switch_with_filters_is_reported() {
         }
     }
 }
-
-/// The effect of the list on G135 and G137 applies from `#MACHINE DATA` on: the largest lag of the motion is that with the same value in
-/// the list, whose program needs no command.
-#[test]
-fn machine_data_switches_feedforward() {
-    let most = |before: &str, settings: &[&str]| {
-        let run = run(&format!("{before}G01 X50 F6000\nM30\n"), settings);
-        run.records.iter().map(|r| r.axes[0].lag.abs()).fold(0.0, f64::max)
-    };
-    let data = |text: &str| format!("#MACHINE DATA [AX=X AXPARAM=\"vorsteuer.{text}\"]\n");
-    let plain = most("", &[]);
-    for (g, key, value) in
-        [("", "default_active", 1), ("G135\n", "global_disable", 1), ("G135\n", "vorsteuerung", 0)]
-    {
-        let listed = most(g, &[&format!("X.vorsteuer.{key}={value}")]);
-        let programmed = most(&format!("{g}{}", data(&format!("{key} {value}"))), &[]);
-        assert!((listed - programmed).abs() < 1e-9, "{key}: {listed} {programmed} {plain}");
-        // and not the lag without it
-        let without = most(g, &[]);
-        assert!((listed - without).abs() > 0.5 * plain, "{key}: {listed} {without}");
-    }
-}

@@ -154,7 +154,6 @@ fn run(ipc: IpcConfig) -> Shown {
     Experiment::default().run(ipc)
 }
 
-#[track_caller]
 /// The manual's result: both vibrations reduced at least as far, without influence on each other.
 /// Conformance: I006, I013, I029, I030, I031.
 #[test]
