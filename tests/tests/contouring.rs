@@ -160,3 +160,52 @@ fn a_curve_passes_no_software_limit_in_silence() {
     }
     assert!(beyond > 10, "{beyond}");
 }
+
+/// The part of a curve that belongs to a block keeps the limits that the program set for it: of the path (`#VECTOR LIMIT`), of the axes
+/// (G127) and of rapid (G129). The speeds are those of the trace.
+#[test]
+fn a_curve_keeps_the_limits_of_both_blocks() {
+    let mut random = Random::new(seed());
+    for _ in 0..count(24) {
+        let pick = |random: &mut Random, of: usize| (random.ratio() * of as f64) as usize;
+        let mode = [
+            "DEV PATH_DEV=1",
+            "POS PRE_DIST=2 POST_DIST=2",
+            "PTP PATH_DIST=3",
+            "DIST PRE_DIST=2 POST_DIST=2",
+        ][pick(&mut random, 4)];
+        let slope = ["STEP", "TRAPEZ", "SIN2", "HSC"][pick(&mut random, 4)];
+        // limit, its end, and the speed in mm/s that it permits along X or Y
+        let (limit, off, most) = [
+            ("#VECTOR LIMIT ON [VEL=1000]", "#VECTOR LIMIT OFF", 1000.0 / 60.0),
+            ("G127 X3 Y3 Z3", "G127 X100 Y100 Z100", f64::NAN),
+        ][pick(&mut random, 2)];
+        let side = random.between(20.0, 60.0);
+        let slow_first = random.ratio() < 0.5;
+        let (first, second) = if slow_first { (limit, off) } else { ("", limit) };
+        let program = format!(
+            "#SLOPE [TYPE={slope}]\n#CONTOUR MODE ON [{mode}]\n{first}\nG01 Y{side:.3} F9000\n{second}\n\
+             X{side:.3}\n#CONTOUR MODE OFF\nM30\n"
+        );
+        let contoured = run(&program, &[]);
+        assert!(!contoured.totals.aborted, "{program}{:?}", contoured.diagnostics);
+        let lines = if slow_first { 0..=4 } else { 6..=6 };
+        let steps = contoured
+            .records
+            .windows(2)
+            .filter(|w| lines.contains(&w[1].line) && lines.contains(&w[0].line));
+        let speed = |w: &[kontur_interpreter::record::CycleRecord]| {
+            let d = [0, 1].map(|i| w[1].axes[i].ipo - w[0].axes[i].ipo);
+            libm::hypot(d[0], d[1]) / contoured.cycle_s
+        };
+        let fastest = steps.map(speed).fold(0.0, f64::max);
+        // what the same words permit on a straight line
+        let alone = run(&format!("{limit}\nG01 X{side:.3} F9000\nM30\n"), &[]);
+        let straight = alone.records.windows(2).map(speed).fold(0.0, f64::max);
+        assert!(most.is_nan() || (straight - most).abs() < 0.01, "{straight}");
+        // of the axes: at 45 degrees the path is faster than either
+        let permitted = if most.is_nan() { straight * std::f64::consts::SQRT_2 } else { straight };
+        assert!(fastest <= 1.001 * permitted, "{fastest} of {permitted} mm/s\n{program}");
+        assert!(fastest > 0.5 * straight, "{fastest} of {straight} mm/s\n{program}");
+    }
+}

@@ -194,10 +194,10 @@ impl Sync {
             | Self::ReadActual
             | Self::TakeActual
             | Self::SetPosition { .. }
+            | Self::Spindle { state: SpindleState::Mark { .. }, .. }
             | Self::MachineData { .. } => AtCorner::Lost,
             // an exact stop without a motion is a dwell of no time
             Self::Dwell { .. }
-            | Self::Spindle { state: SpindleState::Mark { .. }, .. }
             | Self::ExactStop { .. }
             | Self::Stop
             | Self::FlushWait

@@ -22,10 +22,11 @@ const DIVISIONS: u32 = 2;
 pub(super) type Parts = Vec<(Block, f64)>;
 
 impl Contouring {
-    /// The blocks of a curve. Each part has the feed rate of the block that it belongs to, unless the
-    /// speed in the curve is to be constant.
+    /// The blocks of a curve. Each part has the limits of the block that it belongs to and its feed rate, unless the speed in the
+    /// curve is to be constant.
     ///
-    /// Assumption: the documents do not mention different feed rates; the feed rate changes where the block ends.
+    /// Assumption: the documents do not mention different feed rates or limits; they change where the block ends. A constant
+    /// speed is that of the slower feed rate, as far as the limits of both parts permit it.
     pub(super) fn parts(
         &mut self,
         from: &Block,
@@ -33,14 +34,18 @@ impl Contouring {
         curve: &Curve,
         settings: &ContourSettings,
     ) -> Parts {
-        let mut block = from.clone();
-        block.contour = None;
-        let halves = feeds(from, to, settings);
         let dev = [from, to].iter().filter_map(|b| b.tolerance.ax_dev_mm).min_by(f64::total_cmp);
-        block.tolerance.ax_dev_mm = dev;
-        if let Some(check) = settings.curve_jerk {
-            block.dynamics = self.with_check(&block.dynamics, check);
-        }
+        let halves = [from, to].map(|of| {
+            let mut half = Block { seq: of.seq, contour: None, ..from.clone() };
+            half.tolerance.ax_dev_mm = dev;
+            half.full_override = of.full_override;
+            half.dynamics = match settings.curve_jerk {
+                Some(check) => self.with_check(&of.dynamics, check),
+                None => Arc::clone(&of.dynamics),
+            };
+            (half.feed, half.feed_ratio) = feed(of, from, to, settings);
+            half
+        });
         let parts = if settings.constant_velocity { 1 } else { PARTS };
         let feed_axes = from.dynamics.feed_axes.clone();
         let limit = match settings.limit {
@@ -50,10 +55,8 @@ impl Contouring {
             BlockLimit::Within | BlockLimit::After => 2 * parts,
         };
         let timed = |piece: PolyPiece, i: u32| {
-            let seq = if i < limit { from.seq } else { to.seq };
-            let (feed, feed_ratio) = halves[usize::from(i >= limit)];
             let path = Path::Curve(Box::new(PolyPath::through(vec![piece.clone()], &feed_axes)?));
-            let block = Block { seq, path, feed, feed_ratio, ..block.clone() };
+            let block = Block { path, ..halves[usize::from(i >= limit)].clone() };
             let speeds = PathSpeeds::of(&block, &PathExtremes::of(&block.path));
             let v = speeds.limited(speeds.programmed_mm_s).v_mm_s;
             let is_limited = v < speeds.programmed_mm_s * (1.0 - ROUNDING);
@@ -127,15 +130,14 @@ fn divide(
     }
 }
 
-/// Feed and override ratio of the halves of a curve.
-fn feeds(from: &Block, to: &Block, settings: &ContourSettings) -> [(Feed, f64); 2] {
-    let whole = settings.constant_velocity.then(|| slower(from, to));
-    let halves = [from, to].map(|b| whole.unwrap_or_else(|| (speed(b), b.feed_ratio)));
+/// Feed and override ratio of the part of a curve that belongs to `of`, one of the blocks `from` and `to`.
+fn feed(of: &Block, from: &Block, to: &Block, settings: &ContourSettings) -> (Feed, f64) {
+    let constant = settings.constant_velocity.then(|| slower(from, to));
     // the end of the block lies inside the curve
-    halves.map(|(feed, ratio)| match (from.end_velocity_mm_s, feed) {
-        (Some(e), Feed::PathVelocity(v)) => (Feed::PathVelocity(v.min(e)), ratio),
-        _ => (feed, ratio),
-    })
+    match (from.end_velocity_mm_s, constant.unwrap_or_else(|| (speed(of), of.feed_ratio))) {
+        (Some(e), (Feed::PathVelocity(v), ratio)) => (Feed::PathVelocity(v.min(e)), ratio),
+        (_, feed) => feed,
+    }
 }
 
 /// The pieces as blocks with their speeds in mm/s: neighbours with the same feed rate and the same permitted speed are one
@@ -144,7 +146,9 @@ fn joined(pieces: &[Timed], feed_axes: &[bool], constant_velocity: bool) -> Part
     let groups = pieces.chunk_by(|one, next| {
         let same = constant_velocity || (next.v - one.v).abs() <= 1e-9 * one.v;
         let (a, b) = (&one.block, &next.block);
-        same && (a.seq, a.feed, a.feed_ratio) == (b.seq, b.feed, b.feed_ratio)
+        same && (a.seq, a.feed, a.feed_ratio, a.full_override)
+            == (b.seq, b.feed, b.feed_ratio, b.full_override)
+            && (Arc::ptr_eq(&a.dynamics, &b.dynamics) || a.dynamics == b.dynamics)
     });
     let joined = |group: &[Timed]| {
         if let [single] = group {

@@ -6,7 +6,7 @@ use crate::exec::contour::bottleneck::Cut;
 use crate::exec::contour::item::{Item, Rest};
 use crate::exec::contour::motion::{Driven, Motion};
 use crate::exec::fault::Fault;
-use crate::exec::step::{Event, Step};
+use crate::exec::step::{AtCorner, Event, Step};
 use crate::syntax::ast::Span;
 
 impl Contour {
@@ -113,6 +113,8 @@ impl Contour {
                 }
                 self.driven.extend(self.interim.motion(motion));
             }
+            // the path may wait within a curve
+            Item::Rest(rest) if rest.what.at_corner() == AtCorner::Waits => {}
             Item::Rest(_) => self.interim.rest(),
             Item::Events(_) => {}
         }

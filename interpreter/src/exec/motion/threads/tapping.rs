@@ -48,6 +48,10 @@ impl Decoder {
         if let Some(text) = self.apart_from_spindle(&block.path, spindle, feed_mm_s, rpm) {
             self.report.note_once(Subject::Only, Fault::new(Condition::UnequalKernels, text, span));
         }
+        // the tool is not driven into its thread in a curve
+        if self.contour.loses_corner(&Sync::Halt) {
+            self.sync(Sync::Halt);
+        }
         self.sync(Sync::Spindle { spindle, state: SpindleState::Rest });
         let Coupling { axis, deg_per_mm, .. } = coupling;
         self.contour.event(Event::SpindleFollows { spindle, way: Some((axis, deg_per_mm)) });
