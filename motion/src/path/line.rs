@@ -36,7 +36,8 @@ impl LinePath {
     /// A line; `None` if no axis moves.
     pub fn new(start: AxisVec, end: AxisVec, feed_axes: &[bool]) -> Option<Self> {
         let length = moving_length(&start, &end, feed_axes)?;
-        let mut line = Self { direction: end.clone(), start, end, norm: 0.0, length };
+        let direction = AxisVec::zeros(start.len());
+        let mut line = Self { direction, start, end, norm: 0.0, length };
         line.aim();
         Some(line)
     }
@@ -47,20 +48,25 @@ impl LinePath {
         let Some(length) = moving_length(start, end, feed_axes) else { return false };
         self.start.copy_from_slice(start);
         self.end.copy_from_slice(end);
-        self.direction.copy_from_slice(end);
         self.length = length;
         self.aim();
         true
     }
 
-    /// Sets the direction, which must hold the end point.
+    /// Number of axes.
+    pub(super) fn axes(&self) -> usize {
+        self.start.len()
+    }
+
+    /// Sets the direction from start to end.
     fn aim(&mut self) {
-        for (d, a) in self.direction.iter_mut().zip(self.start.iter()) {
-            *d = (*d - a) / self.length;
-        }
+        let n = self.start.len();
+        let (start, end, direction) = (&self.start[..n], &self.end[..n], &mut self.direction[..n]);
         self.norm = 0.0;
-        for d in self.direction.iter() {
-            self.norm += d * d;
+        for i in 0..n {
+            let share = (end[i] - start[i]) / self.length;
+            direction[i] = share;
+            self.norm += share * share;
         }
     }
 
@@ -110,6 +116,18 @@ impl LinePath {
     /// Vector to `point` from the point nearest to it, and the square of its length.
     #[inline]
     pub(super) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        // the numbers of axes that occur have loops of known length
+        match point.len() {
+            2 => self.away(&point[..2], &mut out[..2]),
+            3 => self.away(&point[..3], &mut out[..3]),
+            4 => self.away(&point[..4], &mut out[..4]),
+            _ => self.away(point, out),
+        }
+    }
+
+    #[expect(clippy::inline_always, reason = "a call would not know the number of axes")]
+    #[inline(always)]
+    fn away(&self, point: &[f64], out: &mut [f64]) -> f64 {
         let n = point.len();
         let s = self.foot(point);
         let (from, s) = if s >= self.length { (&self.end, 0.0) } else { (&self.start, s.max(0.0)) };
