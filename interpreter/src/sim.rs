@@ -146,8 +146,12 @@ impl Simulation {
         if !read && !self.is_measured() {
             return 1 + self.take_computed(None);
         }
-        let position = self.planner.setpoint().position.clone();
-        self.show(&position, rows, samples);
+        let position = &self.planner.setpoint().position;
+        self.add_points((self.record.k, 1), |axis| &position[axis..=axis], rows, samples);
+        if !self.independent.is_unused() {
+            self.take_out_ways(samples);
+        }
+        self.show(rows, samples);
         1 + self.take_computed(Some((rows, samples)))
     }
 

@@ -62,11 +62,6 @@ impl Passed {
 }
 
 impl Passed {
-    /// Whether the block is not straight.
-    fn is_bent(&self) -> bool {
-        !self.queued.block.path.is_straight()
-    }
-
     /// Vector to `point` from the nearest point on the path of the block, and the square of its length in mm2.
     #[inline]
     fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {

@@ -105,12 +105,14 @@ impl PathExtremes {
     pub fn of(path: &Path) -> Self {
         match path {
             Path::Line(line) => {
-                let (mut first, none) =
-                    (line.direction().clone(), AxisVec::zeros(line.direction().len()));
-                for share in first.iter_mut() {
-                    *share = share.abs();
+                let n = line.direction().len();
+                let mut first = AxisVec::zeros(n);
+                let (shares, direction) = (&mut first[..n], &line.direction()[..n]);
+                for i in 0..n {
+                    shares[i] = direction[i].abs();
                 }
-                Self { first, second: none.clone(), third: none, lengths: [0.0; 2] }
+                let (second, third) = (AxisVec::zeros(n), AxisVec::zeros(n));
+                Self { first, second, third, lengths: [0.0; 2] }
             }
             Path::Arc(arc) => arc_extremes(arc),
             Path::Tilted(tilted) => tilted_extremes(tilted),
@@ -135,11 +137,13 @@ pub(crate) fn weakest(
 
 /// As [`weakest`], for limits listed by axis.
 fn least(limits: impl Iterator<Item = f64>, share: &[f64]) -> f64 {
-    limits
-        .zip(share)
-        .filter(|(_, u)| **u > 0.0)
-        .map(|(limit, u)| limit / u)
-        .fold(f64::INFINITY, f64::min)
+    let mut least = f64::INFINITY;
+    for (limit, u) in limits.zip(share) {
+        if *u > 0.0 {
+            least = least.min(limit / u);
+        }
+    }
+    least
 }
 
 /// Acceleration that an axis may use for curvature and kinks: the smaller of its acceleration and deceleration in the

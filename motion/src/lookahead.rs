@@ -119,9 +119,10 @@ pub(crate) fn plan_again(
     forced: &[bool],
     (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
-    before: Option<&Draft>,
+    before: Option<Draft>,
 ) -> Result<Draft, Infeasible> {
-    let known = before.map_or_else(Vec::new, |draft| draft.left(a_start, blocks, (feeds, caps)));
+    let known = before.as_ref().map(|draft| draft.left(a_start, blocks, (feeds, caps)));
+    let known = known.unwrap_or_default();
     if blocks.is_empty() {
         return Ok(Draft::default());
     }
@@ -138,7 +139,7 @@ pub(crate) fn plan_again(
     }
     let spans = early.plan(known)?;
     let passing = early.pass(&spans);
-    Ok(Draft::new(spans, passing, a_start, blocks, (feeds, caps)))
+    Ok(Draft::new(spans, passing, a_start, blocks, (feeds, caps), before.unwrap_or_default()))
 }
 
 impl<'a> Window<'a> {

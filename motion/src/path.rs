@@ -52,6 +52,19 @@ pub enum Path {
 }
 
 impl Path {
+    /// Turns the path into a line between other ends over the same axes; false, and unchanged, if no axis moves along
+    /// it.
+    pub fn lead(&mut self, start: &[f64], end: &[f64], feed_axes: &[bool]) -> bool {
+        match self {
+            Self::Line(line) if line.axes() == start.len() => line.lead(start, end, feed_axes),
+            _ => {
+                let [start, end] = [start, end].map(AxisVec::from_slice);
+                let line = LinePath::new(start, end, feed_axes).map(Self::Line);
+                line.map(|line| *self = line).is_some()
+            }
+        }
+    }
+
     /// Length in mm (deg), greater than zero for every path that moves.
     pub fn length(&self) -> f64 {
         match self {

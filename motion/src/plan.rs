@@ -19,7 +19,6 @@ use crate::timeline::{Entry, Moment};
 use crate::tolerance::{Demands, Kernels};
 use kontur_filters::time::CycleTime;
 use short::lower_caps;
-use smallvec::SmallVec;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -160,7 +159,7 @@ impl Plan {
         let gentle = demands.soften(window);
         let from = (self.start.speed, self.start.a_mm_s2);
         let limits = (&feeds[..], &caps[..]);
-        let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.as_ref())?;
+        let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.take())?;
         let spans = &self.draft.insert(planned).spans;
         // after a rest the start may have to wait until the corner before it has left the filters
         let mut at = match demands.stop[0] {
@@ -172,14 +171,15 @@ impl Plan {
         for span in spans {
             let stop = demands.stop[span.end];
             let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
-            let mut entry = Entry::new(at, s, span, window, stops);
-            entry.feeds = SmallVec::from_slice(&feeds[span.first..span.end]);
+            // made in place: entries are large
+            entries.push(Entry::new(at, s, span, window, stops));
+            let Some(entry) = entries.last_mut() else { continue };
+            entry.feeds.extend_from_slice(&feeds[span.first..span.end]);
             at = match stop {
                 Some(dwell) => Moment::tick(entry.end.next_tick(cycle) + u64::from(dwell)),
                 None => entry.end,
             };
             s += span.profile.length();
-            entries.push(entry);
         }
         Ok(entries)
     }

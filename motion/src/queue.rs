@@ -70,8 +70,8 @@ pub struct Queued {
     pub slope: SlopeLimits,
     /// Largest `|q''|` over the axes in 1/mm; 0 for a line.
     pub bend: f64,
-    /// Contains the whole path of the block.
-    pub(crate) ball: Ball,
+    /// Contains the whole path of the block; `None` for a line, whose distance costs as little as that of its ball.
+    pub(crate) ball: Option<Box<Ball>>,
     /// Whether the block continues after the end of this part of it.
     pub(crate) goes_on: bool,
 }
@@ -124,7 +124,7 @@ impl Queued {
             end_mm_s: rated_end(&block, &speeds, ratios),
             slope: table.path_slope(&x),
             bend: x.second.iter().copied().fold(0.0, f64::max),
-            ball: Ball::around(&block.path),
+            ball: (!block.path.is_straight()).then(|| Box::new(Ball::around(&block.path))),
             goes_on: false,
             block,
         }

@@ -282,8 +282,8 @@ impl Timeline {
         self.entries.push_back(entry);
     }
 
-    pub(crate) fn extend(&mut self, entries: impl IntoIterator<Item = Entry>) {
-        self.entries.extend(entries);
+    pub(crate) fn append(&mut self, mut entries: VecDeque<Entry>) {
+        self.entries.append(&mut entries);
     }
 
     pub(crate) fn entries(&self) -> impl DoubleEndedIterator<Item = &Entry> {

@@ -51,10 +51,21 @@ impl RowBuffer {
         AxisColumns { asked: self.asked, values, from: self.cycles.len() }
     }
 
-    /// Value of an axis in the next cycle.
-    pub(crate) fn next(&mut self, axis: usize, quantity: Quantity) -> &mut f64 {
+    /// Values of an axis in the next cycles.
+    pub(crate) fn next(&self, axis: usize, quantity: Quantity, cycles: usize) -> &[f64] {
         let row = self.cycles.len();
-        &mut self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row]
+        &self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row..][..cycles]
+    }
+
+    /// The same, for writing.
+    pub(crate) fn next_mut(
+        &mut self,
+        axis: usize,
+        quantity: Quantity,
+        cycles: usize,
+    ) -> &mut [f64] {
+        let row = self.cycles.len();
+        &mut self.values[(axis * Quantity::COUNT + quantity as usize) * STRIDE + row..][..cycles]
     }
 
     /// Completes the next cycle with the values of a record that do not belong to its axes.

@@ -44,7 +44,10 @@ impl Simulation {
         let count = std::mem::take(&mut self.batch.computed);
         let Some(last) = count.checked_sub(1) else { return 0 };
         let k = self.planner.setpoint().k + 1;
-        let mut position = self.planner.setpoint().position.clone();
+        if let Some((rows, into)) = &mut shown {
+            let positions = |axis: usize| &self.batch.ahead.positions(axis)[..count];
+            self.add_points((k, count), positions, rows, into);
+        }
         let mut s_mm = self.record.path.s_mm;
         for i in 0..count {
             let row = self.batch.ahead.row(i);
@@ -54,20 +57,16 @@ impl Simulation {
                 && let Some((rows, into)) = &mut shown
             {
                 self.pass(k + i as u64, row);
-                for (axis, x) in position.iter_mut().enumerate() {
-                    *x = self.batch.ahead.positions(axis)[i];
-                }
-                self.show(&position, rows, into);
+                self.show(rows, into);
             }
         }
         self.planner.take(&self.batch.ahead, last);
-        position.copy_from_slice(&self.planner.setpoint().position);
-        for (now, x) in self.path_position.iter_mut().zip(position.iter()) {
+        for (now, x) in self.path_position.iter_mut().zip(self.planner.setpoint().position.iter()) {
             *now = x + 0.0;
         }
         self.end_cycle();
         if let Some((rows, into)) = shown {
-            self.show(&position, rows, into);
+            self.show(rows, into);
         }
         count
     }

@@ -115,57 +115,76 @@ impl Samples {
 }
 
 impl Simulation {
-    /// Completes the row of a cycle: that of the record, whose columns are written; and adds its points. `position`: setpoints of
-    /// the path.
-    pub(super) fn show(&mut self, position: &[f64], rows: &mut RowBuffer, into: &mut Samples) {
+    /// Adds the points of the next cycles, the first of which is cycle `k`; their columns are written. `positions`:
+    /// setpoints of the path, axis by axis.
+    pub(super) fn add_points<'a>(
+        &self,
+        (k, count): (u64, usize),
+        positions: impl Fn(usize) -> &'a [f64],
+        rows: &mut RowBuffer,
+        into: &mut Samples,
+    ) {
         let n = self.path_axes();
-        let asked = rows.asked();
-        if asked.has(Quantity::Target) {
-            for (axis, target) in self.targets.iter().enumerate() {
-                *rows.next(axis, Quantity::Target) = *target;
-            }
-        }
         let is_measured = self.is_measured();
         for quantity in [Quantity::Dev, Quantity::DevBothWays] {
-            if !is_measured && asked.has(quantity) {
-                (0..n).for_each(|axis| *rows.next(axis, quantity) = f64::NAN);
+            if !is_measured && rows.asked().has(quantity) {
+                (0..n).for_each(|axis| rows.next_mut(axis, quantity, count).fill(f64::NAN));
             }
         }
         into.axes = n;
-        let number = into.cycles.len();
-        into.changes.extend(self.planner.take_changes().map(|change| (number, change)));
-        // the set position without the ways of independent axes is measured against the contour; while one of them
-        // moves, it does not count
-        let alone = !self.independent.is_unused();
-        let mut shaped = false;
-        for (p, position) in position.iter().enumerate() {
-            let (set, ipo) = (*rows.next(p, Quantity::Set), *rows.next(p, Quantity::Ipo));
-            shaped |= set.to_bits() != ipo.to_bits();
-            into.values.push(if !alone {
-                set
-            } else if self.independent.is_on_its_way(p, self.chains[p].settled()) {
-                *position
-            } else {
-                set - self.independent.done_mm(p)
-            });
+        let first = into.cycles.len();
+        // before the first output nothing is measured
+        let wanted = |k| if is_measured && k > 0 { Wanted::Unshaped } else { Wanted::Nothing };
+        let sample = |k| Sample { k, at: self.blocks.current, wanted: wanted(k), length_mm: 0.0 };
+        into.cycles.extend((k..k + count as u64).map(sample));
+        let from = into.values.len();
+        into.values.resize(from + 2 * n * count, 0.0);
+        for p in 0..n {
+            let (set, ipo) =
+                (rows.next(p, Quantity::Set, count), rows.next(p, Quantity::Ipo, count));
+            let values = into.values[from..].chunks_exact_mut(2 * n);
+            let cycles = &mut into.cycles[first..];
+            for ((values, cycle), ((set, ipo), position)) in
+                values.zip(cycles).zip(set.iter().zip(ipo).zip(positions(p)))
+            {
+                if set.to_bits() != ipo.to_bits() && cycle.wanted == Wanted::Unshaped {
+                    cycle.wanted = Wanted::Shaped;
+                }
+                (values[p], values[n + p]) = (*set, *position);
+            }
         }
-        into.values.extend_from_slice(position);
-        let wanted = match is_measured {
-            // before the first output
-            _ if self.record.k == 0 => Wanted::Nothing,
-            false => Wanted::Nothing,
-            true if shaped => Wanted::Shaped,
-            true => Wanted::Unshaped,
-        };
+    }
+
+    /// Takes the ways of independent axes out of the last point: the set position without them is measured against the
+    /// contour, and while one of them moves, it does not count.
+    pub(super) fn take_out_ways(&mut self, into: &mut Samples) {
+        let n = into.axes;
+        let last = into.values.len() - 2 * n;
+        let (set, path) = into.values[last..].split_at_mut(n);
+        for (p, (set, path)) in set.iter_mut().zip(path).enumerate() {
+            if self.independent.is_on_its_way(p, self.chains[p].settled()) {
+                *set = *path;
+            } else {
+                *set -= self.independent.done_mm(p);
+            }
+        }
+    }
+
+    /// Completes the row of the next cycle: that of the record, whose columns are written and whose points were added.
+    pub(super) fn show(&mut self, rows: &mut RowBuffer, into: &mut Samples) {
+        if rows.asked().has(Quantity::Target) {
+            for (axis, target) in self.targets.iter().enumerate() {
+                rows.next_mut(axis, Quantity::Target, 1)[0] = *target;
+            }
+        }
+        let number = rows.len();
+        for change in self.planner.take_changes() {
+            into.changes.push((number, change));
+        }
         if self.has_messages() {
             into.said_at.get_or_insert(number);
         }
-        into.cycles.push(Sample {
-            k: self.record.k,
-            at: self.blocks.current,
-            wanted,
-            length_mm: 0.0,
-        });
+        into.cycles[number].at = self.blocks.current;
         rows.push(&self.record);
     }
 
@@ -200,10 +219,12 @@ impl Measuring {
         if self.vector.len() != n {
             self.vector = AxisVec::zeros(n);
         }
-        let mut changes = samples.changes.drain(..).peekable();
+        let mut changes = samples.changes.drain(..);
+        let mut next = changes.next();
         for (i, sample) in samples.cycles.iter_mut().enumerate() {
-            while let Some((_, change)) = changes.next_if(|(at, _)| *at <= i) {
+            while let Some((_, change)) = next.take_if(|(at, _)| *at <= i) {
                 self.meter.take(change);
+                next = changes.next();
             }
             let (set, path) = samples.values[2 * n * i..2 * n * (i + 1)].split_at_mut(n);
             // on the contour bit for bit: nothing to search

@@ -96,6 +96,9 @@ impl Changed {
 
     /// The motion as it is driven; earlier ones are dropped.
     fn driven(&mut self, motion: Programmed) -> Programmed {
+        if self.motions.is_empty() {
+            return motion;
+        }
         while self.motions.front().is_some_and(|first| first.seq < motion.seq) {
             self.motions.pop_front();
         }

@@ -4,6 +4,9 @@
 const POWERS: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
+/// 1 in each byte.
+const EACH_BYTE: u64 = 0x0101_0101_0101_0101;
+
 /// Integers up to 2^53 are exact in `f64`.
 const EXACT_MAX: u64 = 1 << 53;
 
@@ -11,6 +14,9 @@ const EXACT_MAX: u64 = 1 << 53;
 ///
 /// `None` if there is no number, or if it has too many digits for the short method to be exact.
 pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
+    if let Some(found) = bytes.first_chunk().and_then(|word| decimal_in_word(*word)) {
+        return Some(found);
+    }
     let (whole, mut mantissa) = digits(bytes, 0);
     let (mut decimals, mut length) = (0, whole);
     if let Some([b'.', behind @ ..]) = bytes.get(whole..) {
@@ -23,6 +29,32 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     }
     // both operands are exact, so the quotient is the correctly rounded value of the decimal
     Some((mantissa as f64 / POWERS[decimals], length))
+}
+
+/// The same for a number with a point that ends within eight bytes, without a loop over its digits: their number, which
+/// cannot be predicted, then costs nothing.
+#[inline]
+fn decimal_in_word(word: [u8; 8]) -> Option<(f64, usize)> {
+    // the first byte is the lowest one
+    let values = u64::from_le_bytes(word) ^ (EACH_BYTE * u64::from(b'0'));
+    // the highest bit of each byte that is not a digit: the carry of no byte reaches the next one
+    let carried = (values & (EACH_BYTE * 0x7F)) + EACH_BYTE * 0x76;
+    let others = (values | carried) & (EACH_BYTE * 0x80);
+    let whole = others.trailing_zeros() / 8;
+    let behind = others.checked_sub(1).map_or(0, |below| others & below).trailing_zeros() / 8;
+    let is_point = word.get(whole as usize) == Some(&b'.');
+    // a number that goes up to the end may continue behind it
+    let count = behind.checked_sub(1).filter(|count| is_point && behind < 8 && *count > 0)?;
+    // without the point, and with zeros before the first digit
+    let before_point = values & !(u64::MAX << (8 * whole));
+    let behind_point = (values >> 8) & (u64::MAX << (8 * whole));
+    let mut digits = (before_point | behind_point) << (8 * (8 - count));
+    // two, four and eight digits at a time
+    digits = (digits * 10 + (digits >> 8)) & 0x00FF_00FF_00FF_00FF;
+    digits = (digits * 100 + (digits >> 16)) & 0x0000_FFFF_0000_FFFF;
+    digits = (digits * 10_000 + (digits >> 32)) & 0xFFFF_FFFF;
+    let decimals = count - whole;
+    Some((digits as f64 / POWERS[decimals as usize], behind as usize))
 }
 
 /// The number of digits at the beginning of `bytes`, and the value of `number` with these digits appended; from 20
@@ -66,6 +98,18 @@ mod tests {
     }
 
     proptest! {
+        /// Short numbers with anything behind them, which must not matter: that of the text alone.
+        #[test]
+        fn what_follows_a_number_does_not_change_it(
+            (whole, part) in ("[0-9]{0,6}", "[0-9]{0,6}"),
+            behind in "[^0-9.]?|[^0-9.][ -~]{0,9}",
+        ) {
+            let number = format!("{whole}.{part}");
+            let expected = number.parse().ok().map(|value: f64| (value.to_bits(), number.len()));
+            let found = short_decimal(format!("{number}{behind}").as_bytes());
+            prop_assert_eq!(found.map(|(value, length)| (value.to_bits(), length)), expected);
+        }
+
         /// The standard library rounds correctly: the result must have the same bits.
         #[test]
         fn rounds_as_the_standard_library(text in "[0-9]{0,20}\\.[0-9]{1,18}|[0-9]{1,25}\\.?") {

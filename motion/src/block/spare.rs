@@ -33,9 +33,14 @@ impl SpareBlocks {
         self.0.append(&mut other.0);
     }
 
+    /// Takes an earlier block, to be turned into the next one.
+    pub fn take(&mut self) -> Option<Box<Block>> {
+        self.0.pop()
+    }
+
     /// Boxes a block, in the memory of an earlier one if there is one.
     pub fn place(&mut self, block: Block) -> Box<Block> {
-        let Some(mut place) = self.0.pop() else { return Box::new(block) };
+        let Some(mut place) = self.take() else { return Box::new(block) };
         *place = block;
         place
     }

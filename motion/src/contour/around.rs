@@ -56,9 +56,8 @@ impl Contour {
             let distance = if is_guess {
                 guessed
             } else {
-                // measuring a straight block costs as little as its ball
-                let ball = &passed.queued.ball;
-                let bound = if passed.is_bent() { ball.distance_from(middle) } else { 0.0 };
+                let ball = passed.queued.ball.as_ref();
+                let bound = ball.map_or(0.0, |ball| ball.distance_from(middle));
                 if bound > most + ROUNDING_MM {
                     *clear = way + bound;
                     continue;
@@ -112,9 +111,8 @@ impl Contour {
                 *clear = way + least;
             } else if *clear <= way + least + ROUNDING_MM {
                 let passed = &self.blocks[i];
-                // measuring a straight block costs as little as its ball
-                let ball = &passed.queued.ball;
-                let bound = if passed.is_bent() { ball.distance_from(point) } else { 0.0 };
+                let ball = passed.queued.ball.as_ref();
+                let bound = ball.map_or(0.0, |ball| ball.distance_from(point));
                 if bound > least + ROUNDING_MM {
                     *clear = way + bound;
                     return;

@@ -137,7 +137,7 @@ impl Gauge {
         self.shortest = None;
         if self.filtered.is_some_and(|last| k <= last + self.reach + 2) {
             self.enter(k, point, point);
-            self.found = Excursion::none(point.len());
+            self.begin(point.len());
             if let Some(least_mm) = least_mm {
                 self.let_go(contour, k, least_mm);
             }
@@ -162,7 +162,7 @@ impl Gauge {
     ) {
         self.enter(k, set, path);
         self.filtered = Some(k);
-        self.found = Excursion::none(set.len());
+        self.begin(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
         let within = (moment - reach, moment);
         if let Some(least_mm) = least_mm {
@@ -180,6 +180,15 @@ impl Gauge {
             let mut vector = AxisVec::zeros(set.len());
             let length = contour.nearest_in_sight(set, within, &mut self.sight, &mut vector);
             self.shortest = length.map(|length| (length, vector));
+        }
+    }
+
+    /// Begins a cycle, in which nothing has been found yet.
+    fn begin(&mut self, axes: usize) {
+        if self.found.vector.len() == axes {
+            self.found.clear();
+        } else {
+            self.found = Excursion::none(axes);
         }
     }
 

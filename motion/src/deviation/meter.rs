@@ -158,6 +158,9 @@ impl Meter {
 
     /// Compares the output with the loosest tolerance of the blocks that the filters hold.
     fn judge(&mut self, k: u64) {
+        if self.least_tolerance_mm.is_none() {
+            return;
+        }
         let reach = u64::from(self.reach_cycles);
         let growing = match self.excess {
             Excess::None => None,

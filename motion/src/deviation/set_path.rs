@@ -34,14 +34,15 @@ impl SetPath {
 
     /// Adds the set point of the next cycle.
     pub(crate) fn push(&mut self, point: &[f64]) {
-        let n = point.len();
         let way = self.ways.last().map_or(0.0, |way| {
-            let before = &self.values[self.values.len() - n..][..n];
-            let mut square = 0.0;
-            for i in 0..n {
-                square += (point[i] - before[i]) * (point[i] - before[i]);
+            let before = &self.values[self.values.len() - point.len()..];
+            // the numbers of axes that occur have loops of known length
+            way + match point.len() {
+                2 => apart(&before[..2], &point[..2]),
+                3 => apart(&before[..3], &point[..3]),
+                4 => apart(&before[..4], &point[..4]),
+                _ => apart(before, point),
             }
-            way + f64::sqrt(square)
         });
         self.ways.push(way);
         self.values.extend_from_slice(point);
@@ -169,6 +170,17 @@ impl SetPath {
             *v = a + u * (b - a) - p;
         }
     }
+}
+
+/// Distance in mm between two points.
+#[inline]
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    let b = &b[..a.len()];
+    let mut square = 0.0;
+    for i in 0..a.len() {
+        square += (b[i] - a[i]) * (b[i] - a[i]);
+    }
+    square.sqrt()
 }
 
 /// Square of the distance in mm2 of a point from the line between two others, and the position on the line.

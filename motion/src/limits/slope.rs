@@ -104,10 +104,12 @@ impl SlopeTable {
             if self.slope.kind == SlopeKind::Sin2 { RampShape::Sin2 } else { RampShape::Trapez };
         // a jerk limit bounds the peak jerk, a ramp time gives the mean jerk
         let vector_jerk = vector.jerk_mm_s3.map_or(f64::INFINITY, |jerk| jerk / shape.peak_jerk());
+        // only in coordinate systems
+        let of_main_axes = d.longest_ramps_of.iter().any(Option::is_some);
         let ramp = |k: usize| {
             let path = if k < 2 { acc } else { dec };
             let combined = path / weakest[self.jerks[k]].min(vector_jerk);
-            combined.max(self.longest_of_main_axes(k, x))
+            combined.max(if of_main_axes { self.longest_of_main_axes(k, x) } else { 0.0 })
         };
         let constant_ramp_time = self.slope.keeps_ramp_times() && !self.rapid;
         let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];

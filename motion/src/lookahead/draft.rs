@@ -24,20 +24,27 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// `passing`: the plan that replaces `spans`, see [`super::passing`].
+    /// `passing`: the plan that replaces `spans`, see [`super::passing`]; `before`: a draft whose memory is used again.
     pub(super) fn new(
         spans: Vec<Span>,
         passing: Option<Vec<Span>>,
         a_start: f64,
         blocks: &[Arc<Queued>],
         (feeds, caps): (&[Cap], &[Cap]),
+        before: Self,
     ) -> Self {
         let (spans, flat) = match passing {
             Some(passing) => (passing, Some(spans)),
             None => (spans, None),
         };
-        let (feeds, caps) = (feeds.to_vec(), caps.to_vec());
-        Self { spans, flat, a_start, blocks: blocks.to_vec(), feeds, caps }
+        let Self { blocks: mut kept, feeds: mut kept_feeds, caps: mut kept_caps, .. } = before;
+        // mostly it has the first ones already; comparing costs less than counting their owners
+        let same = kept.iter().zip(blocks).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
+        kept.truncate(same);
+        kept.extend_from_slice(&blocks[same..]);
+        feeds.clone_into(&mut kept_feeds);
+        caps.clone_into(&mut kept_caps);
+        Self { spans, flat, a_start, blocks: kept, feeds: kept_feeds, caps: kept_caps }
     }
 
     /// A plan without reusable spans.
@@ -135,10 +142,12 @@ mod tests {
         blocks: &[Arc<Queued>],
         limits: (&[Cap], &[Cap]),
         start: (Cap, f64),
-        before: Option<&Draft>,
+        before: Option<Draft>,
     ) -> Result<Option<Draft>, TestCaseError> {
         let forced = vec![false; blocks.len() + 1];
-        let plan = |before| plan_again(blocks, limits, &forced, start, SpeedLimit::Stop, before);
+        let plan = |before: Option<Draft>| {
+            plan_again(blocks, limits, &forced, start, SpeedLimit::Stop, before)
+        };
         let (anew, again) = match (plan(None), plan(before)) {
             (Ok(anew), Ok(again)) => (anew, again),
             (anew, again) => {
@@ -175,7 +184,7 @@ mod tests {
             for (at, ratio, feed) in lowered {
                 let limit = if feed { &mut feeds[at % n] } else { &mut caps[at % n] };
                 limit.v_mm_s *= ratio;
-                draft = twice(&blocks, (&feeds, &caps), (Cap::STOP, 0.0), draft.as_ref())?;
+                draft = twice(&blocks, (&feeds, &caps), (Cap::STOP, 0.0), draft)?;
             }
         }
 
@@ -194,7 +203,7 @@ mod tests {
             for (passed, more) in moves {
                 let window = &blocks[first..end];
                 let feeds: Vec<Cap> = window.iter().map(|b| b.velocity).collect();
-                let planned = twice(window, (&feeds, &closed(&caps[first..end])), start, draft.as_ref())?;
+                let planned = twice(window, (&feeds, &closed(&caps[first..end])), start, draft.take())?;
                 let Some(mut planned) = planned else { break };
                 let passed = passed.min(end - first - 1);
                 if let Some(span) = planned.spans.iter().find(|s| s.first < passed && passed <= s.end) {

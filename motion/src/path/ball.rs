@@ -16,14 +16,6 @@ impl Ball {
     pub(crate) fn around(path: &Path) -> Self {
         let mut center = path.start().clone();
         let mut square = 0.0;
-        if let Path::Line(_) = path {
-            for (c, end) in center.iter_mut().zip(path.end().iter()) {
-                let half = 0.5 * (end - *c);
-                *c += half;
-                square += half * half;
-            }
-            return Self { center, radius: f64::sqrt(square) };
-        }
         for (i, c) in center.iter_mut().enumerate() {
             let half = match path.extent(i) {
                 Some((low, high)) => {

@@ -36,7 +36,8 @@ impl LinePath {
     /// A line; `None` if no axis moves.
     pub fn new(start: AxisVec, end: AxisVec, feed_axes: &[bool]) -> Option<Self> {
         let length = moving_length(&start, &end, feed_axes)?;
-        let mut line = Self { direction: end.clone(), start, end, norm: 0.0, length };
+        let direction = AxisVec::zeros(start.len());
+        let mut line = Self { direction, start, end, norm: 0.0, length };
         line.aim();
         Some(line)
     }
@@ -47,20 +48,25 @@ impl LinePath {
         let Some(length) = moving_length(start, end, feed_axes) else { return false };
         self.start.copy_from_slice(start);
         self.end.copy_from_slice(end);
-        self.direction.copy_from_slice(end);
         self.length = length;
         self.aim();
         true
     }
 
-    /// Sets the direction, which must hold the end point.
+    /// Number of axes.
+    pub(super) fn axes(&self) -> usize {
+        self.start.len()
+    }
+
+    /// Sets the direction from start to end.
     fn aim(&mut self) {
-        for (d, a) in self.direction.iter_mut().zip(self.start.iter()) {
-            *d = (*d - a) / self.length;
-        }
+        let n = self.start.len();
+        let (start, end, direction) = (&self.start[..n], &self.end[..n], &mut self.direction[..n]);
         self.norm = 0.0;
-        for d in self.direction.iter() {
-            self.norm += d * d;
+        for i in 0..n {
+            let share = (end[i] - start[i]) / self.length;
+            direction[i] = share;
+            self.norm += share * share;
         }
     }
 
@@ -110,6 +116,18 @@ impl LinePath {
     /// Vector to `point` from the point nearest to it, and the square of its length.
     #[inline]
     pub(super) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        // the numbers of axes that occur have loops of known length
+        match point.len() {
+            2 => self.away(&point[..2], &mut out[..2]),
+            3 => self.away(&point[..3], &mut out[..3]),
+            4 => self.away(&point[..4], &mut out[..4]),
+            _ => self.away(point, out),
+        }
+    }
+
+    #[expect(clippy::inline_always, reason = "a call would not know the number of axes")]
+    #[inline(always)]
+    fn away(&self, point: &[f64], out: &mut [f64]) -> f64 {
         let n = point.len();
         let s = self.foot(point);
         let (from, s) = if s >= self.length { (&self.end, 0.0) } else { (&self.start, s.max(0.0)) };
@@ -189,5 +207,68 @@ impl Along<'_> {
             c[2] += change * change;
         }
         c
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LinePath;
+    use crate::axis::AxisVec;
+    use crate::path::{ArcPath, ArcShape, Path};
+    use proptest::prelude::*;
+
+    fn line(start: &[f64], end: &[f64]) -> Option<Path> {
+        let [start, end] = [start, end].map(AxisVec::from_slice);
+        LinePath::new(start, end, &[true, true, false]).map(Path::Line)
+    }
+
+    fn arc() -> Path {
+        let [start, end] = [[1.0, 0.0], [0.0, 1.0]].map(|p| AxisVec::from_slice(&p));
+        let sweep_rad = std::f64::consts::FRAC_PI_2;
+        let shape = ArcShape { plane: [0, 1], centre_mm: [0.0; 2], sweep_rad };
+        Path::Arc(ArcPath::new(start, end, shape, &[]).unwrap())
+    }
+
+    /// Coordinates of up to ten axes, more than a list holds without allocation; some axes do not move.
+    fn ends() -> impl Strategy<Value = (Vec<f64>, Vec<f64>)> {
+        let axis = (-1e3..1e3f64, prop_oneof![Just(0.0), -1e2..1e2f64]);
+        prop::collection::vec(axis, 1..10)
+            .prop_map(|axes| axes.into_iter().map(|(from, way)| (from, from + way)).unzip())
+    }
+
+    proptest! {
+        /// Whatever the path was before, it is the line that would be made anew; without motion it stays as it was.
+        #[test]
+        fn a_path_led_elsewhere_is_a_new_line(before in ends(), after in ends()) {
+            for mut path in line(&before.0, &before.1).into_iter().chain([arc()]) {
+                let unchanged = path.clone();
+                let leads = path.lead(&after.0, &after.1, &[true, true, false]);
+                let anew = line(&after.0, &after.1);
+                prop_assert_eq!(leads, anew.is_some());
+                prop_assert_eq!(format!("{path:?}"), format!("{:?}", anew.unwrap_or(unchanged)));
+            }
+        }
+
+        /// No point of the line is nearer than the one from which the vector starts, and one of many is almost as near.
+        #[test]
+        fn the_vector_starts_at_the_nearest_point(
+            (start, end) in ends(),
+            aside in prop::collection::vec(-50.0..50.0f64, 10),
+        ) {
+            let Some(path) = line(&start, &end) else { return Ok(()) };
+            let point: Vec<f64> = start.iter().zip(&aside).map(|(start, aside)| start + aside).collect();
+            let mut vector = vec![0.0; point.len()];
+            let square = path.vector_to(&point, &mut vector);
+            prop_assert!((vector.iter().map(|v| v * v).sum::<f64>() - square).abs() <= 1e-9 * square);
+            let distance = |i: u32| {
+                let u = f64::from(i) / 2000.0;
+                let away = |k: usize| start[k] + u * (end[k] - start[k]) - point[k];
+                (0..point.len()).map(|k| away(k) * away(k)).sum::<f64>().sqrt()
+            };
+            let least = (0..=2000).map(distance).fold(f64::INFINITY, f64::min);
+            let step = start.iter().zip(&end).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt() / 2000.0;
+            prop_assert!(square.sqrt() <= least + 1e-9, "{} {least}", square.sqrt());
+            prop_assert!(square.sqrt() >= least - step, "{} {least}", square.sqrt());
+        }
     }
 }

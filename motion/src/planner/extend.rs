@@ -262,8 +262,8 @@ impl Planner {
             entry.hold_to(own.map(|segment| segment.limits()));
             self.enter(entry, dwell);
         }
-        self.timeline.extend(entries.drain(..count));
-        self.plan.reserve = entries;
+        self.plan.reserve = entries.split_off(count);
+        self.timeline.append(entries);
         // a speed that ends at a limit rises again from there because of that limit
         if let Some(next) = self.plan.segments.front() {
             let limit = next.cap.lower(next.queued.velocity);

@@ -16,6 +16,7 @@ use crate::machine::Channel;
 use crate::machine::is_outside;
 use crate::syntax::ast::Span;
 use crate::syntax::{Plain, PlainValue, PlainWord};
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::{Block, Feed};
 use kontur_motion::path::{LinePath, Path};
 use smallvec::SmallVec;
@@ -89,6 +90,42 @@ impl StraightWords {
     }
 }
 
+impl Straight {
+    /// A block along a path.
+    fn block(&self, path: Path) -> Block {
+        let mut block = Block::new(0, path, self.feed, Arc::clone(&self.dynamics));
+        self.hand_to(&mut block);
+        block
+    }
+
+    /// Gives a block everything but its path.
+    fn hand_to(&self, block: &mut Block) {
+        let Block {
+            seq,
+            path: _,
+            feed,
+            feed_ratio,
+            full_override,
+            end_velocity_mm_s,
+            late_braking,
+            slope,
+            dynamics,
+            tolerance,
+            contour,
+            spline,
+            tangential,
+        } = block;
+        (*seq, *end_velocity_mm_s) = (0, None);
+        (*full_override, *late_braking, *tangential) = (false, false, false);
+        (*feed, *feed_ratio, *slope) = (self.feed, self.feed_ratio, self.slope);
+        (*tolerance, *contour, *spline) = (self.tolerance, self.contour, self.spline);
+        // counting its owners makes the threads wait for each other
+        if !Arc::ptr_eq(dynamics, &self.dynamics) {
+            *dynamics = Arc::clone(&self.dynamics);
+        }
+    }
+}
+
 impl Decoder {
     /// Executes a block of such words, together with what it has in common with the previous block if that was such a block,
     /// too. With `passed`, the program is only examined: a motion that has everything in common with the previous one does not
@@ -153,41 +190,41 @@ impl Decoder {
         let start = coordinates.target().clone();
         let offsets = shared.as_ref().map(|shared| &shared.offsets[..]);
         coordinates.program_with(offsets, words.targets.iter().map(|(target, _)| *target));
-        let end = coordinates.target().clone();
-        let Some(line) = LinePath::new(start, end, self.motion.limits.feed_axes()) else {
-            return shared;
-        };
-        let path = Path::Line(line);
-        self.check_line(path.start(), words);
-        let shared = if let Some(shared) = shared {
-            shared
+        let (block, shared) = if let Some(shared) = shared {
+            let Some(block) = self.straight_block(&start, &shared) else { return Some(shared) };
+            self.check_line(&start, words);
+            (block, shared)
         } else {
-            let outcome =
-                self.share(&path, words.targets.first().map_or(words.span, |(_, at)| *at));
-            self.report.keep(outcome)?
+            let end = self.geometry.coordinates.target().clone();
+            let path = Path::Line(LinePath::new(start, end, self.motion.limits.feed_axes())?);
+            self.check_line(path.start(), words);
+            let at = words.targets.first().map_or(words.span, |(_, at)| *at);
+            let outcome = self.share(&path, at);
+            let shared = self.report.keep(outcome)?;
+            (self.spare.place(shared.block(path)), shared)
         };
         // a block with an error causes no motion
         if self.report.failed() && !self.checking {
             return Some(shared);
         }
-        let block = self.spare.place(Block {
-            seq: 0,
-            path,
-            feed: shared.feed,
-            feed_ratio: shared.feed_ratio,
-            full_override: false,
-            end_velocity_mm_s: None,
-            late_braking: false,
-            slope: shared.slope,
-            dynamics: Arc::clone(&shared.dynamics),
-            tolerance: shared.tolerance,
-            contour: shared.contour,
-            spline: shared.spline,
-            tangential: false,
-        });
         let in_plane = InPlane { plane: shared.plane, tilt: None, compensation: None };
         self.send(block, in_plane, None, words.span);
         Some(shared)
+    }
+
+    /// The block from a position to the targets, if possible in the memory of an earlier one; `None` if no axis moves.
+    fn straight_block(&mut self, start: &AxisVec, shared: &Straight) -> Option<Box<Block>> {
+        let end = self.geometry.coordinates.target();
+        let feed_axes = self.motion.limits.feed_axes();
+        if let Some(mut block) = self.spare.take() {
+            if !block.path.lead(start, end, feed_axes) {
+                return None;
+            }
+            shared.hand_to(&mut block);
+            return Some(block);
+        }
+        let line = LinePath::new(start.clone(), end.clone(), feed_axes)?;
+        Some(Box::new(shared.block(Path::Line(line))))
     }
 
     /// Replaces the previous motion by the motion to the targets of a block; returns the time of the previous one if there is a

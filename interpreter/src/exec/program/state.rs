@@ -62,9 +62,14 @@ impl Level {
     /// Whether the block at a position may run more than once: it is in a loop or its head, or jumps lead back before
     /// it.
     pub(super) fn runs_again(&self, at: Position) -> bool {
+        self.is_repeated(at)
+            || self.index.at(at).is_some_and(|id| self.index.entry(id).keyword.is_loop())
+    }
+
+    /// The same for a block that is no control statement.
+    pub(super) fn is_repeated(&self, at: Position) -> bool {
         self.frames.iter().any(|f| f.keyword.is_loop())
             || self.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
-            || self.index.at(at).is_some_and(|id| self.index.entry(id).keyword.is_loop())
     }
 }
 

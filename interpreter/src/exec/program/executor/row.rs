@@ -56,7 +56,7 @@ impl Executor {
         let [level] = &self.levels[..] else { return None };
         let (file, at) = (level.file, level.at);
         let inside = at.offset < level.end && !level.declarations;
-        if !inside || level.index.at(at).is_some() || level.runs_again(at) {
+        if !inside || level.is_repeated(at) || level.index.at(at).is_some() {
             return None;
         }
         let decoder = &self.decoder;
