@@ -193,14 +193,35 @@ impl Contour {
     pub(crate) fn aside(&self, point: &[f64], from: f64, to: f64) -> f64 {
         let first = self.blocks.partition_point(|b| b.s_mm <= from).saturating_sub(1);
         let last = self.blocks.partition_point(|b| b.s_mm <= to).max(first);
-        let mut q = AxisVec::zeros(point.len());
+        let end = self.whole(last);
+        let mut vector = AxisVec::zeros(point.len());
         let mut vectors: SmallVec<[(f64, f64); 16]> = SmallVec::new();
-        for passed in self.blocks.range(first..self.whole(last)) {
-            let distance = passed.vector_to(point, &mut q).sqrt();
-            let component = q.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let mut measure = |passed: &Passed| {
+            let distance = passed.vector_to(point, &mut vector).sqrt();
+            let component = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
             vectors.push((distance, component));
+            distance
+        };
+        let guess = first.midpoint(end);
+        let guessed = self.blocks.get(guess).filter(|_| guess < end).map(&mut measure);
+        let mut least = guessed.unwrap_or(f64::INFINITY);
+        // lower bound of the distance of the end of the block before: every block begins where the last one ends
+        let mut away = 0.0;
+        for (i, passed) in (first..end).zip(self.blocks.range(first..end)) {
+            let ball = &passed.queued.ball;
+            // twice as far away the weight of any component is less than that of the largest one of the nearest block
+            let far = 2.0 * least + ROUNDING_MM;
+            away -= ball.width();
+            if i == guess {
+                away = least;
+            } else if away <= far {
+                away = ball.distance_from(point);
+                if away <= far {
+                    away = measure(passed);
+                    least = least.min(away);
+                }
+            }
         }
-        let least = vectors.iter().map(|v| v.0).fold(f64::INFINITY, f64::min);
         vectors.iter().map(|(d, c)| c * fading(least, *d)).fold(0.0, f64::max)
     }
 
