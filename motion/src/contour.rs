@@ -300,6 +300,20 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Path length of the program at the foot of a point on the tangent at another path length.
+    pub(crate) fn foot(&mut self, s_mm: f64, point: &[f64]) -> f64 {
+        let Some((passed, s)) = self.seek(s_mm) else { return s_mm };
+        let (mut at, mut along) = (AxisVec::zeros(point.len()), AxisVec::zeros(point.len()));
+        passed.queued.block.path.position(s, &mut at);
+        passed.queued.block.path.tangent(s, &mut along);
+        let (mut dot, mut square) = (0.0, 0.0);
+        for ((at, along), to) in at.iter().zip(along.iter()).zip(point) {
+            dot += (to - at) * along;
+            square += along * along;
+        }
+        s_mm + dot / square
+    }
+
     /// Weighted sum of the points near some path lengths, see [`Path::near`], for results that are measured exactly
     /// later.
     pub(crate) fn sum_near(&mut self, places: impl Iterator<Item = (f64, f64)>, out: &mut [f64]) {
