@@ -5,7 +5,7 @@ mod sight;
 
 use crate::axis::AxisVec;
 use crate::junction::TANGENT;
-use crate::path::{LinePath, Path};
+use crate::path::{Ball, LinePath, Path};
 use crate::queue::Queued;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
@@ -71,6 +71,20 @@ impl Passed {
     #[inline]
     fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         self.queued.block.path.vector_to(point, out)
+    }
+
+    /// Distance in mm between the ends of the path over all axes.
+    #[inline]
+    fn chord(&self) -> f64 {
+        let path = &self.queued.block.path;
+        let (from, to) = (&path.start()[..], &path.end()[..]);
+        let n = from.len();
+        let to = &to[..n];
+        let mut square = 0.0;
+        for i in 0..n {
+            square += (to[i] - from[i]) * (to[i] - from[i]);
+        }
+        f64::sqrt(square)
     }
 
     /// Whether the direction of an axis changes between two blocks.
@@ -208,14 +222,15 @@ impl Contour {
         // lower bound of the distance of the end of the block before: every block begins where the last one ends
         let mut away = 0.0;
         for (i, passed) in (first..end).zip(self.blocks.range(first..end)) {
-            let ball = &passed.queued.ball;
+            // a straight block is measured at once
+            let ball = Some(&passed.queued.ball).filter(|_| passed.is_bent());
             // twice as far away the weight of any component is less than that of the largest one of the nearest block
             let far = 2.0 * least + ROUNDING_MM;
-            away -= ball.width();
+            away -= ball.map_or_else(|| passed.chord(), Ball::width);
             if i == guess {
                 away = least;
             } else if away <= far {
-                away = ball.distance_from(point);
+                away = ball.map_or(0.0, |ball| ball.distance_from(point));
                 if away <= far {
                     away = measure(passed);
                     least = least.min(away);
