@@ -5,7 +5,7 @@ mod sight;
 
 use crate::axis::AxisVec;
 use crate::junction::TANGENT;
-use crate::path::{LinePath, Path};
+use crate::path::{Ball, LinePath, Path};
 use crate::queue::Queued;
 use smallvec::SmallVec;
 use std::collections::VecDeque;
@@ -66,6 +66,20 @@ impl Passed {
     #[inline]
     fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
         self.queued.block.path.vector_to(point, out)
+    }
+
+    /// Distance in mm between the ends of the path over all axes.
+    #[inline]
+    fn chord(&self) -> f64 {
+        let path = &self.queued.block.path;
+        let (from, to) = (&path.start()[..], &path.end()[..]);
+        let n = from.len();
+        let to = &to[..n];
+        let mut square = 0.0;
+        for i in 0..n {
+            square += (to[i] - from[i]) * (to[i] - from[i]);
+        }
+        f64::sqrt(square)
     }
 
     /// Whether the direction of an axis changes between two blocks.
@@ -188,14 +202,36 @@ impl Contour {
     pub(crate) fn aside(&self, point: &[f64], from: f64, to: f64) -> f64 {
         let first = self.blocks.partition_point(|b| b.s_mm <= from).saturating_sub(1);
         let last = self.blocks.partition_point(|b| b.s_mm <= to).max(first);
-        let mut q = AxisVec::zeros(point.len());
+        let end = self.whole(last);
+        let mut vector = AxisVec::zeros(point.len());
         let mut vectors: SmallVec<[(f64, f64); 16]> = SmallVec::new();
-        for passed in self.blocks.range(first..self.whole(last)) {
-            let distance = passed.vector_to(point, &mut q).sqrt();
-            let component = q.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let mut measure = |passed: &Passed| {
+            let distance = passed.vector_to(point, &mut vector).sqrt();
+            let component = vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
             vectors.push((distance, component));
+            distance
+        };
+        let guess = first.midpoint(end);
+        let guessed = self.blocks.get(guess).filter(|_| guess < end).map(&mut measure);
+        let mut least = guessed.unwrap_or(f64::INFINITY);
+        // lower bound of the distance of the end of the block before: every block begins where the last one ends
+        let mut away = 0.0;
+        for (i, passed) in (first..end).zip(self.blocks.range(first..end)) {
+            // a straight block is measured at once
+            let ball = passed.queued.ball.as_deref();
+            // twice as far away the weight of any component is less than that of the largest one of the nearest block
+            let far = 2.0 * least + ROUNDING_MM;
+            away -= ball.map_or_else(|| passed.chord(), Ball::width);
+            if i == guess {
+                away = least;
+            } else if away <= far {
+                away = ball.map_or(0.0, |ball| ball.distance_from(point));
+                if away <= far {
+                    away = measure(passed);
+                    least = least.min(away);
+                }
+            }
         }
-        let least = vectors.iter().map(|v| v.0).fold(f64::INFINITY, f64::min);
         vectors.iter().map(|(d, c)| c * fading(least, *d)).fold(0.0, f64::max)
     }
 
@@ -272,6 +308,20 @@ impl<'a> Walk<'a> {
         if let Some((passed, s)) = self.seek(s_mm) {
             passed.queued.block.path.position(s, out);
         }
+    }
+
+    /// Path length of the program at the foot of a point on the tangent at another path length.
+    pub(crate) fn foot(&mut self, s_mm: f64, point: &[f64]) -> f64 {
+        let Some((passed, s)) = self.seek(s_mm) else { return s_mm };
+        let (mut at, mut along) = (AxisVec::zeros(point.len()), AxisVec::zeros(point.len()));
+        passed.queued.block.path.position(s, &mut at);
+        passed.queued.block.path.tangent(s, &mut along);
+        let (mut dot, mut square) = (0.0, 0.0);
+        for ((at, along), to) in at.iter().zip(along.iter()).zip(point) {
+            dot += (to - at) * along;
+            square += along * along;
+        }
+        s_mm + dot / square
     }
 
     /// Weighted sum of the points near some path lengths, see [`Path::near`], for results that are measured exactly

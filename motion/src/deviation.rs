@@ -175,7 +175,7 @@ impl SetPath {
         let component = |part: u32| {
             let u = f64::from(part) / f64::from(parts);
             let point: AxisVec = a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect();
-            around.worst_component(&point)
+            around.worst_component(&point, (u - 0.5).abs() * length)
         };
         (1..=parts).map(component).fold(0.0, f64::max)
     }

@@ -46,7 +46,8 @@
 //! blocks also set points halfway between two cycles.
 //!
 //! Bounded instead of measured: where the set point is certainly closer than the tolerance to its companion point on
-//! the contour ([`bound`]); stretches of constant speed on one line, where one set point represents all.
+//! the contour ([`bound`]), or closer than another one of the same half kernel is measured to be, because only the worst
+//! is answered; stretches of constant speed on one line, where one set point represents all.
 //!
 //! Neither exact nor bounded: the choice of the blocks that are slowed down. It keeps the tolerance but is not an
 //! optimum; `motion/tests/promise.rs` compares it with the best even speed (`EVEN=1`).

@@ -212,22 +212,32 @@ impl<'a> Around<'a> {
 
     /// Largest component of all vectors to a point that may count as the shortest: those from any block that are longer
     /// than the shortest one without slack by at most `WARY`. Between the examined points, and with a different
-    /// definition of reach, another block may be the nearest.
-    pub(crate) fn worst_component(&self, point: &[f64]) -> f64 {
+    /// definition of reach, another block may be the nearest. The point lies on the line, `off` mm from its midpoint.
+    pub(crate) fn worst_component(&self, point: &[f64], off: f64) -> f64 {
+        let counting = self.blocks.iter().filter(|b| b.counts);
+        let Some(guess) = counting.min_by(|a, b| a.distance.total_cmp(&b.distance)) else {
+            return 0.0;
+        };
         let mut vector = AxisVec::zeros(point.len());
-        let mut least = f64::INFINITY;
         let mut found: SmallVec<[(f64, f64); 16]> = SmallVec::new();
-        for Candidate { passed, counts, .. } in &self.blocks {
+        let mut measure = |passed: &Passed| {
             let square = passed.vector_to(point, &mut vector);
-            if *counts {
+            found.push((square, vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()))));
+            square
+        };
+        let alike = (1.0 + WARY) * (1.0 + WARY);
+        let mut least = measure(guess.passed);
+        for b in self.blocks.iter().filter(|b| !std::ptr::eq(*b, guess)) {
+            let bound = (b.distance - off - ROUNDING_MM).max(0.0);
+            if bound * bound > alike * least {
+                continue;
+            }
+            let square = measure(b.passed);
+            if b.counts {
                 least = least.min(square);
             }
-            found.push((square, vector.iter().fold(0.0, |m: f64, c| m.max(c.abs()))));
         }
-        if least.is_infinite() {
-            return 0.0;
-        }
-        let within = (1.0 + WARY) * (1.0 + WARY) * least;
+        let within = alike * least;
         found.iter().filter(|f| f.0 <= within).map(|f| f.1).fold(0.0, f64::max)
     }
 }
@@ -338,6 +348,26 @@ mod tests {
         (least, apart)
     }
 
+    /// Largest component of the vectors from some blocks to a point, each with a weight that depends on the ratio of its
+    /// length to the shortest one of the blocks that count.
+    fn largest_of<'a>(
+        blocks: impl Iterator<Item = (&'a Passed, bool)>,
+        point: &[f64; 2],
+        weight: impl Fn(f64) -> f64,
+    ) -> f64 {
+        let vectors = blocks.map(|(passed, counts)| {
+            let path = &passed.queued.block.path;
+            let mut q = [0.0; 2];
+            path.position(path.nearest(point), &mut q);
+            let off = [0, 1].map(|i| (point[i] - q[i]).abs());
+            (libm::hypot(off[0], off[1]), off[0].max(off[1]), counts)
+        });
+        let vectors: Vec<_> = vectors.collect();
+        let counting = vectors.iter().filter(|v| v.2);
+        let least = counting.map(|v| v.0).fold(f64::INFINITY, f64::min);
+        vectors.iter().map(|v| v.1 * weight(v.0 / least)).fold(0.0, f64::max)
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -377,7 +407,20 @@ mod tests {
                     let others = other.nearest_of_all(&point, &mut vectors[3]).unwrap();
                     prop_assert_eq!((all.block, vectors[2]), (others.block, vectors[3]));
                     prop_assert!(all.distance <= found.distance);
+                    let of_all = around.blocks.iter().map(|b| (b.passed, b.counts));
+                    let alike = |ratio| f64::from(ratio <= 1.0 + WARY);
+                    let most = largest_of(of_all, &point, alike);
+                    let off = (u - 0.5).abs() * 2.0 * around.half;
+                    prop_assert!((around.worst_component(&point, off) - most).abs() < 1e-12);
                 }
+                // any blocks of the contour, also those far from the point
+                let count = contour.blocks.len();
+                let [i, j] = asides[k as usize % 8].map(|at| ((at + 0.6) * 0.8 * count as f64) as usize);
+                let (i, j) = (i.min(j), i.max(j));
+                let blocks = contour.blocks.range(i..=j).map(|passed| (passed, true));
+                let most = largest_of(blocks, &here, |ratio| libm::pow(ratio, -8.0).min(1.0));
+                let stretch = [i, j].map(|i| contour.blocks[i].s_mm);
+                prop_assert!((contour.aside(&here, stretch[0], stretch[1]) - most).abs() < 1e-12);
                 let mut vectors = [[0.0; 2]; 2];
                 let seen = contour.nearest_in_sight(&here, (from, to), &mut of_points, &mut vectors[0]);
                 let alone = contour.nearest(&here, from, to, &mut vectors[1]).map(|n| n.distance);

@@ -85,17 +85,25 @@ impl SetPath {
 
     /// Largest distance in mm of the set points of some cycles from the line through two points.
     pub(crate) fn bulge(&self, cycles: Range<u64>, from: &[f64], to: &[f64]) -> f64 {
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<AxisVec>();
-        let along = minus(to, from);
-        let square = dot(&along, &along);
-        let beside = cycles.filter_map(|k| {
-            let off = minus(self.get(k)?, from);
-            let part = dot(&off, &along);
+        let n = self.axes;
+        let (from, to) = (&from[..n], &to[..n]);
+        let mut square = 0.0;
+        for i in 0..n {
+            square += (to[i] - from[i]) * (to[i] - from[i]);
+        }
+        let mut largest = 0.0_f64;
+        for point in cycles.filter_map(|k| self.get(k)) {
+            let point = &point[..n];
+            let (mut part, mut whole) = (0.0, 0.0);
+            for i in 0..n {
+                let off = point[i] - from[i];
+                part += off * (to[i] - from[i]);
+                whole += off * off;
+            }
             let on_line = if square > 0.0 { part * part / square } else { 0.0 };
-            Some(dot(&off, &off) - on_line)
-        });
-        beside.fold(0.0, f64::max).sqrt()
+            largest = largest.max(whole - on_line);
+        }
+        largest.sqrt()
     }
 
     /// Sum of the angles in rad between the lines that end at the set points of some cycles; those known so far.
@@ -147,14 +155,9 @@ impl SetPath {
     /// Square of the distance in mm2 of a point from the line between cycle `k` and cycle `k + 1`, and the position on
     /// the line.
     pub(super) fn to_line(&self, k: u64, point: &[f64]) -> (f64, f64) {
-        let n = point.len();
-        let ends = k.checked_sub(self.first).and_then(|at| {
-            let at = at as usize * n;
-            self.values.get(at..at + 2 * n)
-        });
-        let Some((a, b)) = ends.map(|ends| ends.split_at(n)) else { return (f64::INFINITY, 0.0) };
+        let Some((a, b)) = self.line(k) else { return (f64::INFINITY, 0.0) };
         // the numbers of axes that occur have loops of known length
-        match n {
+        match point.len() {
             2 => foot(&a[..2], &b[..2], &point[..2]),
             3 => foot(&a[..3], &b[..3], &point[..3]),
             4 => foot(&a[..4], &b[..4], &point[..4]),
@@ -164,11 +167,20 @@ impl SetPath {
 
     /// The shortest vector from a point to the line between cycle `k` and cycle `k + 1`.
     pub(super) fn aside(&self, k: u64, point: &[f64], vector: &mut [f64]) {
+        let n = self.axes;
+        let Some((a, b)) = self.line(k) else { return };
         let u = self.to_line(k, point).1;
-        let (Some(a), Some(b)) = (self.get(k), self.get(k + 1)) else { return };
-        for (((v, p), a), b) in vector.iter_mut().zip(point).zip(a).zip(b) {
-            *v = a + u * (b - a) - p;
+        let (a, b, point, vector) = (&a[..n], &b[..n], &point[..n], &mut vector[..n]);
+        for i in 0..n {
+            vector[i] = a[i] + u * (b[i] - a[i]) - point[i];
         }
+    }
+
+    /// The set points of cycle `k` and cycle `k + 1`.
+    #[inline]
+    fn line(&self, k: u64) -> Option<(&[f64], &[f64])> {
+        let at = k.checked_sub(self.first)? as usize * self.axes;
+        Some(self.values.get(at..at + 2 * self.axes)?.split_at(self.axes))
     }
 }
 

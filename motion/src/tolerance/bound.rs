@@ -1,12 +1,12 @@
 //! Upper bound of the distance between set path and contour, from one cycle to the next.
 //!
-//! The weights of a kernel define a mean `m` of the path lengths it holds, and with it a point `q(m)` of the contour.
-//! Whatever the speed, `m` moves along the contour without gaps, and the set point `y` moves with it: so `|y - q(m)|`
-//! bounds both the distance by which the set path leaves the contour and that by which it misses it. Along one straight
-//! block both move linearly from one cycle to the next, so the bound is evaluated at the set points and where `m`
-//! passes to another block; on bends the sagitta of the arc is added. It is valid for any weights. Where the filters of
-//! the axes are equal, it is close to the measured value: the vector then has no component along the path, to first
-//! order.
+//! Any path length `m` that the filters hold defines a point `q(m)` of the contour. From one cycle to the next, `m` moves
+//! along the contour without gaps, and the set point `y` moves with it: so `|y - q(m)|` bounds both the distance by
+//! which the set path leaves the contour and that by which it misses it. Along one straight block both move linearly
+//! from one cycle to the next, so the bound is evaluated at the set points and where `m` passes to another block; on
+//! bends the sagitta of the arc is added. Where the filters of the axes are equal, `m` is the mean of the path lengths
+//! that they hold: the bound is then close to the measured value, because the vector has no component along the path, to
+//! first order. Filters that differ move the set point along the path, and `m` is moved with it.
 
 use super::view::Mark;
 use crate::axis::AxisVec;
@@ -16,9 +16,9 @@ use crate::contour::{Contour, Walk};
 pub(super) struct Companion<'a> {
     marks: &'a [Mark],
     walk: Walk<'a>,
-    /// Set point and mean path length of the cycle before, and the distance there.
+    /// Set point and path length `m` of the cycle before, and the distance there.
     before: Option<(AxisVec, f64, f64)>,
-    /// Number of marks that the mean path length has passed.
+    /// Number of marks that the path length has passed.
     passed: usize,
     point: AxisVec,
 }
@@ -35,18 +35,18 @@ impl<'a> Companion<'a> {
         self.before = None;
     }
 
-    /// Largest distance in mm on the segment from the set point of the cycle before to `set`, where the mean path
-    /// length is `middle`.
-    pub(super) fn step(&mut self, set: &[f64], middle: f64) -> f64 {
-        self.walk.position(middle, &mut self.point);
+    /// Largest distance in mm on the segment from the set point of the cycle before to `set`, where the path length
+    /// is `beside`.
+    pub(super) fn step(&mut self, set: &[f64], beside: f64) -> f64 {
+        self.walk.position(beside, &mut self.point);
         let here = distance(set, &self.point);
         let Some((from, start, there)) = &mut self.before else {
-            self.before = Some((AxisVec::from_slice(set), middle, here));
+            self.before = Some((AxisVec::from_slice(set), beside, here));
             return here;
         };
         let mut largest = here.max(*there);
         let marks = self.marks;
-        let (low, high) = (start.min(middle), start.max(middle));
+        let (low, high) = (start.min(beside), start.max(beside));
         while self.passed > 0 && marks[self.passed - 1].s_mm > low {
             self.passed -= 1;
         }
@@ -55,7 +55,7 @@ impl<'a> Companion<'a> {
         }
         let ahead = marks[self.passed..].iter().take_while(|m| m.s_mm < high);
         for m in ahead.clone() {
-            let u = (m.s_mm - *start) / (middle - *start);
+            let u = (m.s_mm - *start) / (beside - *start);
             for ((p, a), b) in self.point.iter_mut().zip(from.iter()).zip(set) {
                 *p = a + u * (b - a);
             }
@@ -68,7 +68,7 @@ impl<'a> Companion<'a> {
             .fold(0.0_f64, f64::max);
         let way = high - low;
         from.copy_from_slice(set);
-        (*start, *there) = (middle, here);
+        (*start, *there) = (beside, here);
         largest + bend * way * way / 8.0 * (set.len() as f64).sqrt()
     }
 }
@@ -117,14 +117,15 @@ mod tests {
     }
 
     proptest! {
-        /// For any polygon, any speeds and any positive weights: no point of the segment between two set points is
-        /// further from the polygon than the bound, and no point of the polygon between the two mean path lengths is
-        /// further from the segment.
+        /// For any polygon, any speeds, any positive weights and any path lengths beside the set points: no point of the
+        /// segment between two set points is further from the polygon than the bound, and no point of the polygon
+        /// between the two path lengths is further from the segment.
         #[test]
         fn nothing_between_two_set_points_is_further_apart(
             points in prop::collection::vec(prop::array::uniform2(-1.0..1.0f64), 3..9),
             weights in prop::collection::vec(0.01..1.0f64, 1..9),
             steps in prop::collection::vec(0.0..0.5f64, 20),
+            shifts in prop::collection::vec(-0.5..0.5f64, 30),
         ) {
             let (marks, contour) = polygon(&points);
             let end = marks.last().map_or(0.0, |m| m.s_mm + m.queued.length);
@@ -146,18 +147,18 @@ mod tests {
                         .map(|(w, s)| w / total * f(**s)).sum()
                 };
                 let set = [0, 1].map(|i| mean(&|s| place(s)[i]));
-                let middle = mean(&|s| s);
-                let bound = companion.step(&set, middle);
-                let (from, start) = before.unwrap_or((set, middle));
+                let beside = (mean(&|s| s) + shifts[k]).clamp(0.0, end);
+                let bound = companion.step(&set, beside);
+                let (from, start) = before.unwrap_or((set, beside));
                 for part in 0..=16 {
                     let u = f64::from(part) / 16.0;
                     let at = [0, 1].map(|i| from[i] + u * (set[i] - from[i]));
                     let left = points.windows(2).map(|b| aside(at, b[0], b[1]));
                     prop_assert!(left.fold(f64::INFINITY, f64::min) <= bound + 1e-9);
-                    let missed = aside(place(start + u * (middle - start)), from, set);
+                    let missed = aside(place(start + u * (beside - start)), from, set);
                     prop_assert!(missed <= bound + 1e-9, "{missed} {bound}");
                 }
-                before = Some((set, middle));
+                before = Some((set, beside));
             }
         }
     }

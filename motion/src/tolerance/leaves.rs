@@ -8,7 +8,7 @@ use super::ranges::chunks;
 use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
-use crate::contour::Sight;
+use crate::contour::{Sight, WARY};
 use crate::deviation::Unkept;
 use crate::deviation::{Excursion, SetPath};
 
@@ -44,39 +44,80 @@ impl View<'_> {
             let mut set = SetPath::starting(first, n);
             let mut sight = Sight::default();
             let mut harvest = Harvest::new(self, &mut left.worst, &mut found);
+            let mut waiting: Vec<(f64, u64)> = Vec::new();
             let suspects =
-                self.suspects((from, to), points, &mut companion, |k, points, suspect| {
+                self.suspects((from, to), WARY, points, &mut companion, |k, points, apart| {
                     record.push(points.s());
                     set.push(points.set());
-                    if k >= from
-                        && suspect
-                        && let Some(v) = self.leaves_at(k, &set, &mut sight)
-                    {
+                    let Some(apart) = apart.filter(|_| k >= from) else { return };
+                    if harvest.is_close(k) {
+                        waiting.push((apart, k));
+                        return;
+                    }
+                    self.settle(&mut waiting, &set, &mut sight, &mut harvest, &record);
+                    if let Some(v) = self.leaves_at(k, apart, &set, &mut sight) {
                         harvest.take(v, &record);
                     }
                 });
+            self.settle(&mut waiting, &set, &mut sight, &mut harvest, &record);
             harvest.end(&record);
             left.suspects.extend(suspects.cycles);
         }
         left
     }
 
-    /// The violation on the segment to the set point of cycle `k`, if there is one.
-    fn leaves_at(&self, k: u64, set: &SetPath, sight: &mut Sight) -> Option<Violation> {
+    /// Measures the set points that wait, given by the bounds of their distances in mm and their cycles. The one with
+    /// the largest bound comes first, because it rules out most of the others.
+    fn settle<F: FnMut(&Violation, &Record)>(
+        &self,
+        waiting: &mut Vec<(f64, u64)>,
+        set: &SetPath,
+        sight: &mut Sight,
+        harvest: &mut Harvest<'_, F>,
+        record: &Record,
+    ) {
+        waiting.sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        for (apart, k) in waiting.drain(..) {
+            // of the vectors that count as the shortest
+            let longest = (1.0 + WARY) * apart;
+            if harvest.counts(longest, self.tolerance_at(k))
+                && let Some(v) = self.leaves_at(k, apart, set, sight)
+            {
+                harvest.take(v, record);
+            }
+        }
+    }
+
+    /// Smallest tolerance in mm of the blocks within reach of the filters in cycle `k`.
+    fn tolerance_at(&self, k: u64) -> f64 {
+        let moment = k as f64;
+        self.tolerance(moment - f64::from(self.trial.kernels.length()), moment)
+    }
+
+    /// The violation on the segment to the set point of cycle `k`, if there is one. `apart`: the bound of its distance
+    /// in mm.
+    fn leaves_at(&self, k: u64, apart: f64, set: &SetPath, sight: &mut Sight) -> Option<Violation> {
         let contour = &self.contour;
         let moment = k as f64;
         let within_reach = (moment - f64::from(self.trial.kernels.length()), moment);
-        let tolerance_mm = self.tolerance(within_reach.0, within_reach.1);
+        let tolerance_mm = self.tolerance_at(k);
         if tolerance_mm.is_infinite() {
+            return None;
+        }
+        // the components depend on which blocks count as within reach
+        let doubt = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
+        let doubtful = |sight: &mut Sight| set.doubtful(contour, k, within_reach, doubt, sight);
+        // the shortest vectors keep the tolerance if the bound does, which is close to them where the filters are equal
+        let keeps = apart <= within(tolerance_mm) && !self.trial.kernels.differ();
+        let alternatives = keeps.then(|| doubtful(sight));
+        if alternatives.is_some_and(|largest| largest <= within(tolerance_mm)) {
             return None;
         }
         let mut out = Excursion::none(set.axes());
         set.leaves(contour, k, within_reach, sight, &mut out);
         let mut deviation_mm = out.largest();
         if out.length > DOUBT * tolerance_mm && deviation_mm <= within(tolerance_mm) {
-            // the components depend on which blocks count as within reach
-            let apart = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
-            deviation_mm = deviation_mm.max(set.doubtful(contour, k, within_reach, apart, sight));
+            deviation_mm = deviation_mm.max(alternatives.unwrap_or_else(|| doubtful(sight)));
         }
         let axis = out.axis();
         let (vector, missed) = (out.vector, None);

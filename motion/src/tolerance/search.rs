@@ -8,8 +8,7 @@ use super::ranges::{chunks, joined, within_of};
 use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
-use crate::contour::WARY;
-use crate::deviation::Unkept;
+use crate::deviation::{ALIKE, Unkept};
 use crate::timeline::{PathState, Reader};
 
 /// Relative difference of path increments per cycle up to which the speed counts as constant.
@@ -98,7 +97,7 @@ impl View<'_> {
         let mut worst: Option<Unkept> = None;
         let mut companion = Companion::new(&self.marks, &self.contour, points.axes());
         for stretch in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
-            let suspects = self.suspects(stretch, points, &mut companion, |_, _, _| ());
+            let suspects = self.suspects(stretch, ALIKE, points, &mut companion, |_, _, _| ());
             // whether a point is missed is known only after it has left the filters
             let ends = suspects.cycles.iter().map(|(a, b)| (*a, b + reach + 2));
             let held = ends.map(|(a, b)| (a.max(stretch.0), b.min(stretch.1)));
@@ -144,14 +143,16 @@ impl View<'_> {
         joined(active, reach)
     }
 
-    /// The parts of a range of cycles that the bound does not exclude. `each` is called for every cycle, with whether
-    /// its set point is a suspect.
+    /// The parts of a range of cycles that the bound does not exclude, where a vector may be taken for the shortest one
+    /// that is longer by a share of at most `wary`. `each` is called for every cycle, if its set point
+    /// is a suspect with the bound in mm of its distance.
     pub(super) fn suspects(
         &self,
         (from, to): (u64, u64),
+        wary: f64,
         points: &mut SetPoints<'_>,
         companion: &mut Companion<'_>,
-        mut each: impl FnMut(u64, &SetPoints<'_>, bool),
+        mut each: impl FnMut(u64, &SetPoints<'_>, Option<f64>),
     ) -> Suspects {
         let length = self.trial.kernels.length();
         let reach = f64::from(length);
@@ -163,22 +164,21 @@ impl View<'_> {
         let mut begin: Option<f64> = None;
         for k in first..=to {
             points.step(k);
-            let middle = points.middle();
-            let known = middle >= *begin.get_or_insert(points.s());
-            let apart = companion.step(points.set(), middle);
-            let [older, newer] = before.unwrap_or([middle; 2]);
-            before = Some([newer, middle]);
+            let beside = points.beside();
+            let known = beside >= *begin.get_or_insert(points.s());
+            let apart = companion.step(points.set(), beside);
+            let [older, newer] = before.unwrap_or([beside; 2]);
+            before = Some([newer, beside]);
             let moment = k as f64;
             let tolerance = self.tolerance(moment - reach, moment + reach);
-            // a vector slightly longer than the shortest one may be taken for it
-            let suspect = (known || k >= from) && (1.0 + WARY) * apart > within(tolerance);
-            each(k, points, suspect);
+            let suspect = (known || k >= from) && (1.0 + wary) * apart > within(tolerance);
+            each(k, points, suspect.then_some(apart));
             if suspect {
-                out.add(k, older, middle);
+                out.add(k, older, beside);
                 last = Some(k);
             } else if last.is_some_and(|last| last + 1 == k) {
                 // the section is extended up to the neighbouring point, which is needed as well
-                out.lengthen(middle);
+                out.lengthen(beside);
             }
         }
         out.in_order();

@@ -15,7 +15,7 @@ pub(super) struct SetPoints<'a> {
     axes: usize,
     /// Cycle of each row; cycle `k` uses row `k` modulo the number of rows.
     cycles: Vec<u64>,
-    /// Rows: set point, mean path length, path length.
+    /// Rows: set point, path length beside it, path length.
     rows: Vec<f64>,
     /// Start of the row of the last cycle requested.
     at: usize,
@@ -48,7 +48,7 @@ impl<'a> SetPoints<'a> {
             self.buffer.step(k);
             let (set, rest) = self.rows[self.at..][..self.axes + 2].split_at_mut(self.axes);
             set.copy_from_slice(self.buffer.set());
-            (rest[0], rest[1]) = (self.buffer.middle(), self.buffer.s());
+            (rest[0], rest[1]) = (self.buffer.beside(), self.buffer.s());
             self.cycles[row] = k;
         }
     }
@@ -58,8 +58,8 @@ impl<'a> SetPoints<'a> {
         &self.rows[self.at..][..self.axes]
     }
 
-    /// See [`Buffer::middle`].
-    pub(super) fn middle(&self) -> f64 {
+    /// See [`Buffer::beside`].
+    pub(super) fn beside(&self) -> f64 {
         self.rows[self.at + self.axes]
     }
 

@@ -2,7 +2,7 @@
 
 use super::{BORDER_CYCLES, Kernels, Monitor, Trial};
 use crate::axis::AxisVec;
-use crate::contour::{Contour, SAME_START_MM};
+use crate::contour::{Contour, SAME_START_MM, Walk};
 use crate::queue::Queued;
 use crate::timeline::{Entry, PathState, Reader};
 use kontur_filters::kernel::Kernel;
@@ -175,6 +175,7 @@ fn widest(kernels: &Kernels) -> usize {
 pub(super) struct Buffer<'a> {
     view: &'a View<'a>,
     reader: Reader<'a>,
+    walk: Walk<'a>,
     /// Cycle by cycle, oldest first: the position of every axis, then the path length.
     rows: Vec<f64>,
     /// Number of values in a row.
@@ -196,6 +197,7 @@ impl<'a> Buffer<'a> {
         Self {
             view,
             reader: Reader::new(trial.timeline, trial.plan),
+            walk: view.contour.walk(),
             rows: vec![0.0; reach * (n + 1)],
             width: n + 1,
             reach,
@@ -257,7 +259,23 @@ impl<'a> Buffer<'a> {
 
     /// Mean of the path lengths within the longest kernel, filtered as the positions are; limited to their range.
     pub(super) fn middle(&self) -> f64 {
+        self.within_reach(self.filtered[self.width - 1])
+    }
+
+    /// Path length of the point of the contour that accompanies the set point of the last cycle filtered: the mean of
+    /// [`Self::middle`], or, where the filters differ and move the set point along the path, the one beside it.
+    pub(super) fn beside(&mut self) -> f64 {
+        let middle = self.middle();
+        if !self.view.trial.kernels.differ() {
+            return middle;
+        }
+        let foot = self.walk.foot(middle, &self.filtered[..self.width - 1]);
+        self.within_reach(foot)
+    }
+
+    /// The nearest path length among those within reach of the kernels.
+    fn within_reach(&self, s_mm: f64) -> f64 {
         let oldest = self.rows.len() - (self.reach - 1) * self.width - 1;
-        self.filtered[self.width - 1].clamp(self.rows[oldest], self.s())
+        s_mm.clamp(self.rows[oldest], self.s())
     }
 }

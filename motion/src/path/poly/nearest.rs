@@ -2,7 +2,6 @@
 //! Newton's method next to the best sample.
 
 use super::{Cell, PolyPath};
-use crate::axis::AxisVec;
 use crate::path::piece::{PolyPiece, bend, slope, value};
 use smallvec::SmallVec;
 use std::cmp::Ordering;
@@ -41,6 +40,17 @@ pub(super) fn radius(piece: &PolyPiece, from: f64, to: f64) -> f64 {
 }
 
 impl PolyPath {
+    /// Upper bound in mm of the distance of any point of the curve from `point`.
+    pub(in crate::path) fn radius_around(&self, point: &[f64]) -> f64 {
+        let distance =
+            |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum::<f64>().sqrt();
+        // the ends are met exactly, the pieces only up to rounding
+        let ends = distance(&self.start).max(distance(&self.end));
+        let middles = self.middles.chunks_exact(self.start.len());
+        let cells = self.cells.iter().zip(middles).map(|(c, middle)| distance(middle) + c.radius);
+        cells.fold(ends, f64::max)
+    }
+
     pub(crate) fn nearest(&self, point: &[f64]) -> f64 {
         let (cell, x) = self.search(point);
         let cell = &self.cells[cell];
@@ -61,17 +71,11 @@ impl PolyPath {
 
     /// Sub-interval and parameter of the nearest point.
     fn search(&self, point: &[f64]) -> (usize, f64) {
-        let n = point.len();
-        let mut q = AxisVec::zeros(n);
-        let mut distance = |piece: usize, x: f64| -> f64 {
-            self.point(piece, x, &mut q);
-            q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
-        };
         let step = |cell: &Cell| (cell.to - cell.from) / SAMPLES as f64;
-        // only these sub-intervals can contain the nearest sample: in the others every point is further away
         let to_middle = |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
-        let middles: SmallVec<[f64; 64]> =
+        let middles: SmallVec<[f64; 8]> =
             self.middles.chunks_exact(self.start.len()).map(to_middle).collect();
+        // only these sub-intervals can contain the nearest sample: in the others every point is further away
         let within = middles.iter().copied().fold(f64::INFINITY, f64::min).sqrt() * (1.0 + 1e-9);
         let mut best = (f64::INFINITY, 0, 0.0);
         for (i, cell) in self.cells.iter().enumerate() {
@@ -79,9 +83,9 @@ impl PolyPath {
             if middles[i] > reach * reach {
                 continue;
             }
-            for k in 0..=SAMPLES {
-                let x = cell.sample(k);
-                let d = distance(cell.piece, x);
+            let places = std::array::from_fn(|k| cell.sample(k));
+            let squares: [f64; SAMPLES + 1] = squares(&self.pieces[cell.piece], point, &places);
+            for (x, d) in places.into_iter().zip(squares) {
                 if d < best.0 {
                     best = (d, i, x);
                 }
@@ -90,56 +94,78 @@ impl PolyPath {
         // if the best sample is at the border of a sub-interval, the nearest point may be in the next one
         let (_, i, x) = best;
         let mut nearest = (f64::INFINITY, i, x);
-        for j in i.saturating_sub(1)..(i + 2).min(self.cells.len()) {
+        let beside = [i.checked_sub(1), Some(i + 1).filter(|j| *j < self.cells.len())];
+        for j in [Some(i)].into_iter().chain(beside).flatten() {
             let cell = &self.cells[j];
+            let reach = nearest.0.sqrt() * (1.0 + 1e-9) + cell.radius;
+            if middles[j] > reach * reach {
+                continue;
+            }
             let step = step(cell);
             let (low, high) = match j.cmp(&i) {
                 Ordering::Less => (cell.to - step, cell.to),
                 Ordering::Equal => ((x - step).max(cell.from), (x + step).min(cell.to)),
                 Ordering::Greater => (cell.from, cell.from + step),
             };
-            let x = self.closest(cell.piece, point, low, high);
-            let d = distance(cell.piece, x);
-            if d < nearest.0 {
+            let piece = &self.pieces[cell.piece];
+            let x = closest(piece, point, low, high);
+            let [d] = squares(piece, point, &[x]);
+            // of equally near points the first
+            if d < nearest.0 || d <= nearest.0 && j < nearest.1 {
                 nearest = (d, j, x);
             }
         }
         (nearest.1, nearest.2)
     }
+}
 
-    /// Zero of the derivative of the squared distance between two parameter values, by bisection and Newton's method.
-    fn closest(&self, piece: usize, point: &[f64], low: f64, high: f64) -> f64 {
-        let slopes = |x: f64| -> (f64, f64) {
-            let (mut first, mut second) = (0.0, 0.0);
-            for (c, p) in self.pieces[piece].iter().zip(point) {
-                let (d0, d1, d2) = (value(c, x) - p, slope(c, x), bend(c, x));
-                first += d0 * d1;
-                second += d1 * d1 + d0 * d2;
-            }
-            (first, second)
-        };
-        if slopes(low).0 >= 0.0 {
-            return low;
+/// Squares of the distances of a point from some places of a piece.
+#[inline]
+fn squares<const N: usize>(piece: &PolyPiece, point: &[f64], places: &[f64; N]) -> [f64; N] {
+    let mut squares = [0.0; N];
+    // place by place inside, so that several are computed at once
+    for (c, p) in piece.iter().zip(point) {
+        for (square, x) in squares.iter_mut().zip(places) {
+            let off = value(c, *x) - p;
+            *square += off * off;
         }
-        if slopes(high).0 <= 0.0 {
-            return high;
-        }
-        let (mut low, mut high) = (low, high);
-        let mut x = 0.5 * (low + high);
-        for _ in 0..60 {
-            let (first, second) = slopes(x);
-            if first > 0.0 {
-                high = x;
-            } else {
-                low = x;
-            }
-            let newton = x - first / second;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - x).abs() <= 1e-15 {
-                return next;
-            }
-            x = next;
-        }
-        x
     }
+    squares
+}
+
+/// Zero of the derivative of the squared distance between two parameter values of a piece, by bisection and Newton's
+/// method.
+fn closest(piece: &PolyPiece, point: &[f64], low: f64, high: f64) -> f64 {
+    let slopes = |x: f64| -> (f64, f64) {
+        let (mut first, mut second) = (0.0, 0.0);
+        for (c, p) in piece.iter().zip(point) {
+            let (d0, d1, d2) = (value(c, x) - p, slope(c, x), bend(c, x));
+            first += d0 * d1;
+            second += d1 * d1 + d0 * d2;
+        }
+        (first, second)
+    };
+    if slopes(low).0 >= 0.0 {
+        return low;
+    }
+    if slopes(high).0 <= 0.0 {
+        return high;
+    }
+    let (mut low, mut high) = (low, high);
+    let mut x = 0.5 * (low + high);
+    for _ in 0..60 {
+        let (first, second) = slopes(x);
+        if first > 0.0 {
+            high = x;
+        } else {
+            low = x;
+        }
+        let newton = x - first / second;
+        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        if (next - x).abs() <= 1e-15 {
+            return next;
+        }
+        x = next;
+    }
+    x
 }
