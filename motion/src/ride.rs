@@ -13,20 +13,29 @@
 //! the acceleration is zero, except where there is no room for that; a limit that is not reached has no effect.
 //! Sine-square ramps (SIN2) cannot be cut at a limit; they are built in steps, see [`sine`].
 //!
+//! Limits of neighbouring blocks that differ by rounding are made equal first, see [`level`].
+//!
 //! A stretch whose rise and fall do not meet is refused; the caller then requires zero acceleration at its boundaries.
 
 mod climb;
+mod level;
 mod meet;
 mod sine;
 
 use crate::profile::{MotionState, Phase, Profile, RampShape, Rates, ThirdOrderLimits};
 use climb::climb;
+use level::level;
 use meet::Meet;
 
 /// Shortest ramp in s.
 const SHORTEST_RAMP_S: f64 = 1e-4;
 /// Relative tolerance of a limit for rounding.
 const SLACK: f64 = 1e-9;
+/// Relative difference up to which limits of neighbouring blocks count as equal: rounding of their coordinates.
+const ALIKE: f64 = 1e-6;
+/// Relative drop of the speed from which on it is cut: more than twice the tolerance of a limit, less than two limits
+/// differ ([`level`]).
+const CUT: f64 = 30.0 * SLACK;
 /// Speed in mm/s that counts as standstill.
 const REST_MM_S: f64 = 1e-9;
 /// Relative gain of speed from which on a hill between two equal limits at the ends of a block is used.
@@ -86,8 +95,10 @@ fn own(cells: &[Cell]) -> Vec<Block> {
     cells.iter().map(block).collect()
 }
 
-/// Combines blocks between which nothing changes, so that a line in two parts is treated as one.
-fn joined(blocks: Vec<Block>) -> Vec<Block> {
+/// Combines blocks between which nothing changes, so that a line in two parts is treated as one. `ends`: the speeds at
+/// both ends, which stay within the limits.
+fn joined(mut blocks: Vec<Block>, ends: Option<(f64, f64)>) -> Vec<Block> {
+    level(&mut blocks, ends);
     let mut out: Vec<Block> = Vec::with_capacity(blocks.len());
     for block in blocks {
         match out.last_mut().filter(|last| last.goes_on_as(&block)) {
@@ -107,7 +118,7 @@ pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Prof
         let speed = if a0.abs() > 0.0 { None } else { sine::speed(cells, v0, v1) };
         return speed.map(|speed| Profile::over(speed, length));
     }
-    let cells = &joined(own(cells))[..];
+    let cells = &joined(own(cells), Some((v0, v1)))[..];
     let rise = climb(cells, v0, a0)?;
     let fall = turned(&climb(&mirror(cells), v1, 0.0)?, length);
     let speed = Meet { cells, rise: &rise, fall: &fall, v1 }.speed()?;
@@ -150,7 +161,7 @@ pub(crate) struct Alone {
 impl Alone {
     /// `None` if the limits change on the way, or the ramps differ or are those of SIN2.
     pub(crate) fn of(cells: &[Cell]) -> Option<Self> {
-        let block = match joined(own(cells))[..] {
+        let block = match joined(own(cells), None)[..] {
             [block] if cells[0].rates.shape == RampShape::Trapez => block,
             _ => return None,
         };
@@ -228,7 +239,7 @@ fn is_hill(length: f64, v: f64, acc: f64, jerk: f64) -> bool {
 
 /// Whether a limit is below the present speed: the braking towards it is not part of the rise.
 fn is_drop(limit: f64, v: f64) -> bool {
-    limit < v * (1.0 - 10.0 * SLACK)
+    limit < v * (1.0 - ALIKE)
 }
 
 /// Whether a speed reached at `s` in block `c` can be held up to the end of the block, or reduced in time, or is cut
@@ -237,7 +248,7 @@ fn is_level(cells: &[Block], c: usize, s: f64, reached: f64, v: f64) -> bool {
     let cell = &cells[c];
     let Some(behind) = cells.get(c + 1) else { return true };
     let limit = cell.cap.min(behind.v);
-    if reached <= limit * (1.0 + SLACK) || is_drop(limit, v) {
+    if reached <= limit * (1.0 + 2.0 * SLACK) || is_drop(limit, v) {
         return true;
     }
     let whole = cell.end - c.checked_sub(1).map_or(0.0, |b| cells[b].end);

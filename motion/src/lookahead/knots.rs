@@ -57,6 +57,8 @@ impl Window<'_> {
             let length = blocks[from..to].iter().map(|b| b.length).sum();
             rates(&blocks[from]).is_some_and(|r| has_hill(length, v, &r))
         };
+        // the two ends of a rounded corner have the same limit up to rounding
+        let lowest = |i: usize, neighbour: usize| square[i] <= square[neighbour] * (1.0 + ALIKE);
         (0..=n)
             .map(|i| {
                 i > 0
@@ -66,9 +68,9 @@ impl Window<'_> {
                     && !plain[i]
                     && blocks[i].plans_across()
                     && gains[i].is_some()
-                    && square[i] >= own[i]
-                    && (square[i] <= square[begins[i - 1]] || own_hill(begins[i - 1], i))
-                    && (square[i] <= square[ends[i]] || own_hill(i, ends[i]))
+                    && square[i] >= own[i] * (1.0 - ALIKE)
+                    && (lowest(i, begins[i - 1]) || own_hill(begins[i - 1], i))
+                    && (lowest(i, ends[i]) || own_hill(i, ends[i]))
             })
             .collect()
     }

@@ -7,6 +7,11 @@
 //! other as the limits permit. Where none fits, or it would be very slow, both are planned again below a lower *hill*.
 //!
 //! Every connection is checked against every limit it passes.
+//!
+//! The speed is to be a continuous function of the limits: an acceleration, or the height of a hill, is found to rounding
+//! and not from a row of trials, and what is compared has to differ by more than the tolerances of both sides. What
+//! remains are decisions at thresholds that no form of a contour favours (how many steps a ramp takes, how far from the
+//! crossing a connection begins).
 
 mod crossing;
 mod hill;
@@ -22,9 +27,13 @@ const STEPS_PER_RAMP: f64 = 8.0;
 /// Largest number of blocks, forward and backward, that a step is assumed to cover.
 const REACH: usize = 64;
 
+/// Relative difference of the times of both directions from which on one is faster: a contour that is its own mirror
+/// image is driven in one of them.
+const FASTER: f64 = 1e-7;
+
 /// Reduces the jerk of every block to the smallest one within `reach_s`, as a ramp may extend over several blocks.
-fn blocks(cells: &[Cell], reach_s: f64) -> Vec<Block> {
-    let each = joined(own(cells));
+fn blocks(cells: &[Cell], ends: (f64, f64), reach_s: f64) -> Vec<Block> {
+    let each = joined(own(cells), Some(ends));
     let mut out = each.clone();
     for (i, cell) in each.iter().enumerate() {
         let near = |k: &usize| each[k - 1].end <= cell.end + cell.v * reach_s;
@@ -45,14 +54,17 @@ pub(super) fn speed(cells: &[Cell], v0: f64, v1: f64) -> Option<Vec<Phase>> {
     let length = cells.last()?.end;
     let longest = cells.iter().flat_map(|c| c.rates.ramps).fold(SHORTEST_RAMP_S, f64::max);
     let dt = (longest / STEPS_PER_RAMP).max(SHORTEST_RAMP_S);
-    let cells = &blocks(cells, longest)[..];
+    let cells = &blocks(cells, (v0, v1), longest)[..];
     let mirrored = &mirror(cells)[..];
     let forward = Rise { cells, dt }.run(v0)?;
     let backward = Rise { cells: mirrored, dt }.run(v1)?;
     // joined from both ends, so that a reversed contour takes the same time
     let there = lower_one(cells, dt, forward.clone(), turned(&backward, length), v0);
     let back = lower_one(mirrored, dt, backward, turned(&forward, length), v1);
-    let time = |list: &Vec<Phase>| list.iter().map(|p| p.t).sum::<f64>();
-    let candidates = [there, back.map(|out| turned(&out, length))];
-    candidates.into_iter().flatten().min_by(|a, b| time(a).total_cmp(&time(b)))
+    let back = back.map(|out| turned(&out, length));
+    let time = |list: &[Phase]| list.iter().map(|p| p.t).sum::<f64>();
+    match (there, back) {
+        (Some(there), Some(back)) if time(&back) < time(&there) * (1.0 - FASTER) => Some(back),
+        (there, back) => there.or(back),
+    }
 }

@@ -1,12 +1,15 @@
 //! The lower of rise and fall, with a connection where one changes to the other.
 
-use super::super::{Block, SLACK};
+use super::super::{Block, CUT, SLACK};
 use super::STEPS_PER_RAMP;
 use super::hill::Hill;
-use crate::profile::{MotionState, Phase, RampShape, ThirdOrderLimits};
+use crate::profile::{FLAT_MM_S2, MotionState, Phase, RampShape, ThirdOrderLimits};
 
 /// Relative excess of the rise over the fall from which on they cross; both may miss a limit that they follow by less.
 const CROSSING: f64 = 1e-3;
+/// Relative excess over a limit that a connection may have: it begins and ends at speeds that keep a limit up to
+/// [`SLACK`], and is planned for half of this excess.
+const OVER: f64 = 4.0 * SLACK;
 /// Widths, in phases on either side, with which a connection is tried.
 const WIDTHS: [usize; 16] = [0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36, 48, 64, 96, 128];
 /// Widths above this one are tried on both sides or on one side alone: connections of other widths are not faster in
@@ -76,7 +79,7 @@ impl Join<'_> {
                 let end = next.end();
                 let crosses = || {
                     c < self.cells.len()
-                        && end.v > speed_at(&self.fall, end.s, length) * (1.0 + SLACK)
+                        && end.v > speed_at(&self.fall, end.s, length) * (1.0 + CUT)
                 };
                 if end.s > quiet && crosses() {
                     break;
@@ -111,7 +114,7 @@ impl Join<'_> {
         let ahead = self.fall.partition_point(|p| p.s <= here.s + slack).max(1);
         let is_cut = |k: usize| {
             let (before, behind) = (self.fall[k - 1].end(), &self.fall[k]);
-            behind.v > before.v * (1.0 + SLACK) + 1e-12
+            behind.v > before.v * (1.0 + CUT) + 1e-12
         };
         let cut = (ahead..self.fall.len()).find(|k| is_cut(*k)).unwrap_or(self.fall.len());
         let loss = |(keep, phases, to): &Connection| {
@@ -208,13 +211,14 @@ impl Join<'_> {
             v = lowest.max(flat(from.v, from.a)).max(flat(to.v, -to.a));
         }
         let limits = ThirdOrderLimits {
-            v_max_mm_s: v * (1.0 + SLACK),
+            v_max_mm_s: v * (1.0 + 0.5 * OVER),
             v_min_mm_s: 0.0,
             a_max_mm_s2: acc.max(from.a).max(to.a) * (1.0 + 1e-12),
             a_min_mm_s2: -dec.max(-from.a).max(-to.a) * (1.0 + 1e-12),
             jerk_mm_s3: jerk,
         };
-        let phases = Self::fastest(from, to, &limits)?;
+        let phases = Self::fastest(from, to, &limits).or_else(|| even(from, to));
+        let phases = phases?;
         let mut c = first;
         for phase in &phases {
             let end = phase.end();
@@ -229,7 +233,7 @@ impl Join<'_> {
                 let t = if inside { part.t } else { part.time_at(cell.end) };
                 let piece = part.until(t);
                 let (a0, a1) = (piece.a, piece.end().a);
-                if piece.peak() > cell.v * (1.0 + SLACK)
+                if piece.peak() > cell.v * (1.0 + OVER)
                     || a0.max(a1) > cell.acc * (1.0 + 1e-6)
                     || a0.min(a1) < -cell.dec * (1.0 + 1e-6)
                 {
@@ -238,7 +242,7 @@ impl Join<'_> {
                 if inside {
                     break;
                 }
-                if piece.end().v > cell.cap * (1.0 + SLACK) {
+                if piece.end().v > cell.cap * (1.0 + OVER) {
                     return None;
                 }
                 part = part.rest(t);
@@ -279,9 +283,14 @@ fn time(phases: &[Phase]) -> f64 {
 
 /// Whether two states are equal up to rounding.
 fn coincide(a: &Phase, b: &Phase) -> bool {
-    (a.s - b.s).abs() <= 1e-12 * b.s
-        && (a.v - b.v).abs() <= SLACK * b.v
-        && (a.a - b.a).abs() <= 1e-6
+    (a.s - b.s).abs() <= 1e-12 * b.s && (a.v - b.v).abs() <= CUT * b.v && (a.a - b.a).abs() <= 1e-6
+}
+
+/// A constant speed between two states with equal speeds up to rounding.
+fn even(from: &Phase, to: &Phase) -> Option<Vec<Phase>> {
+    let is_flat = from.a.abs().max(to.a.abs()) <= FLAT_MM_S2;
+    let is_same = (from.v - to.v).abs() <= OVER * to.v;
+    (is_flat && is_same).then(|| vec![from.ramp(RampShape::Sin2, 0.0, (to.s - from.s) / from.v)])
 }
 
 /// Speed of a list of phases at `s`, before a cut there.

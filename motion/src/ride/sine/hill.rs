@@ -4,12 +4,16 @@
 //! below the fall; a connection would then follow the lowest limit. Here rise and fall are planned again below a
 //! height, the highest one at which they meet; the lower the height, the more room between them.
 
-use super::super::{Block, SLACK, mirror};
+use super::super::{Block, CUT, mirror};
 use super::rise::Rise;
 use crate::profile::Phase;
 
-/// Bisection steps for the height.
-const ROUNDS: u32 = 12;
+/// Accuracy of the height, relative to it.
+const PRECISION: f64 = 1e-10;
+/// Largest number of heights: a halving every other time gets there.
+const ROUNDS: u32 = 80;
+/// Share of the interval of heights to which a step has to reduce it; otherwise it is halved next.
+const ENOUGH: f64 = 0.6;
 /// Relative difference of the speeds of rise and fall at their height, since a rise ends just below its limit.
 const LEVEL: f64 = 0.02;
 
@@ -21,6 +25,13 @@ pub(super) struct Hill<'a> {
     pub(super) to: Phase,
 }
 
+/// A hill below some height, if there is one, and the distance in mm between the points at which rise and fall reach
+/// it; NaN if one of them does not.
+struct Try {
+    phases: Option<Vec<Phase>>,
+    room_mm: f64,
+}
+
 impl Hill<'_> {
     /// The phases from one end to the other; `None` if not even the lowest height fits. `between` connects two states.
     pub(super) fn highest(
@@ -28,15 +39,29 @@ impl Hill<'_> {
         between: impl Fn(&Phase, &Phase) -> Option<Vec<Phase>>,
     ) -> Option<Vec<Phase>> {
         let cells = self.part()?;
+        let below = |height| self.below(&cells, height, &between);
         let mut low = self.from.v.max(self.to.v);
-        let mut best = self.below(&cells, low, &between)?;
+        let Try { phases, room_mm } = below(low);
+        let mut best = phases?;
         let mut high = cells.iter().map(|c| c.v).fold(0.0, f64::max);
+        let mut rooms = (room_mm, f64::NAN);
+        let mut width = f64::INFINITY;
         for _ in 0..ROUNDS {
-            let mid = 0.5 * (low + high);
-            if let Some(found) = self.below(&cells, mid, &between) {
-                (low, best) = (mid, found);
+            if high - low <= PRECISION * high {
+                break;
+            }
+            // where the room ends, as long as that halves the interval
+            let falsi = low + (high - low) * rooms.0 / (rooms.0 - rooms.1);
+            let halves = high - low <= ENOUGH * width;
+            width = high - low;
+            let edge = 0.1 * PRECISION * high;
+            let next = if halves && rooms.1 < 0.0 { falsi } else { 0.5 * (low + high) };
+            let next = next.clamp(low + edge, high - edge);
+            let Try { phases, room_mm } = below(next);
+            if let Some(found) = phases {
+                (low, best, rooms.0) = (next, found, room_mm);
             } else {
-                high = mid;
+                (high, rooms.1) = (next, room_mm);
             }
         }
         Some(best)
@@ -61,29 +86,39 @@ impl Hill<'_> {
         cells: &[Block],
         height: f64,
         between: impl Fn(&Phase, &Phase) -> Option<Vec<Phase>>,
-    ) -> Option<Vec<Phase>> {
+    ) -> Try {
+        let Some([(mut phases, top), (down, far)]) = self.sides(cells, height) else {
+            return Try { phases: None, room_mm: f64::NAN };
+        };
         let (start, length) = (self.from.s, self.to.s - self.from.s);
+        let room_mm = far.s - top.s;
+        let connection = (room_mm >= 0.0).then(|| between(&top, &far)).flatten();
+        let phases = connection.map(|connection| {
+            phases.extend(connection);
+            phases.extend(down.iter().rev().map(|p| {
+                let mut p = p.reversed(length);
+                p.s += start;
+                p
+            }));
+            phases
+        });
+        Try { phases, room_mm }
+    }
+
+    /// The rise below a height, at its place, and the fall, from its end, each with the state at the height.
+    fn sides(&self, cells: &[Block], height: f64) -> Option<[(Vec<Phase>, Phase); 2]> {
         let cells: Vec<Block> = cells.iter().map(|c| Block { v: c.v.min(height), ..*c }).collect();
         let dt = self.dt;
         let up = Rise { cells: &cells, dt }.run(self.from.v)?;
         let down = Rise { cells: &mirror(&cells), dt }.run(self.to.v)?;
-        let (mut out, top) = climb(up, self.from.v, height)?;
+        let (mut up, top) = climb(up, self.from.v, height)?;
         let (down, far) = climb(down, self.to.v, height)?;
-        for phase in &mut out {
-            phase.s += start;
+        for phase in &mut up {
+            phase.s += self.from.s;
         }
-        let top = Phase::state(top.s + start, top.v, 0.0);
+        let top = Phase::state(top.s + self.from.s, top.v, 0.0);
         let far = Phase::state(self.to.s - far.s, far.v, 0.0);
-        if far.s < top.s {
-            return None;
-        }
-        out.extend(between(&top, &far)?);
-        out.extend(down.iter().rev().map(|p| {
-            let mut p = p.reversed(length);
-            p.s += start;
-            p
-        }));
-        Some(out)
+        Some([(up, top), (down, far)])
     }
 }
 
@@ -93,7 +128,7 @@ fn climb(mut rise: Vec<Phase>, mut v: f64, height: f64) -> Option<(Vec<Phase>, P
     let stays = |p: &Phase| p.a.abs() <= 1e-9 && p.j.abs() <= 1e-9;
     let level = rise.iter().position(|p| stays(p) && p.v >= height * (1.0 - LEVEL))?;
     for phase in &rise[..=level] {
-        if phase.v < v * (1.0 - SLACK) {
+        if phase.v < v * (1.0 - CUT) {
             return None;
         }
         v = phase.end().v;

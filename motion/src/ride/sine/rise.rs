@@ -1,12 +1,15 @@
 //! The rise: as fast as the blocks permit, without ever reducing the speed.
 
 use super::super::{Block, SLACK, is_drop, is_level};
-use crate::profile::{Phase, RampShape};
+use crate::profile::roots::enclosed_root;
+use crate::profile::{FLAT_MM_S2, Phase, RampShape};
 
 /// Number of steps per stretch, in addition to as many per block, beyond which a rise is refused as too slow.
 const MOST_STEPS: usize = 20_000;
-/// Bisection steps for the acceleration in a step.
-const ROUNDS: u32 = 10;
+/// Accuracy of the acceleration after a step, relative to the interval in which it is searched.
+const PRECISION: f64 = 1e-10;
+/// Least gain of acceleration, relative to the largest one in a step, for which the ramp down is put off.
+const LEAST_RISE: f64 = 2e-3;
 /// Numbers of steps over which a sine-square ramp up is tried first.
 const LONG_STEPS: [f64; 3] = [8.0, 4.0, 2.0];
 
@@ -46,7 +49,7 @@ impl Rise<'_> {
                 if last || flat || end.v > limit || phase.v > limit {
                     let t = if flat { phase.t } else { phase.time_at(cell.end) };
                     let here = phase.after(t);
-                    if last || flat || here.v > limit * (1.0 + SLACK) {
+                    if last || flat || here.v > limit * (1.0 + 2.0 * SLACK) {
                         phase.t = t;
                         end = Phase::state(cell.end, here.v, here.a);
                         if here.v > limit {
@@ -61,7 +64,9 @@ impl Rise<'_> {
             if phase.t > 0.0 {
                 out.push(phase);
             }
-            here = Phase::state(end.s, end.v, end.a.max(0.0));
+            // after a ramp down to zero rounding remains
+            let a = if end.a > FLAT_MM_S2 { end.a } else { 0.0 };
+            here = Phase::state(end.s, end.v, a);
         }
         Some(out)
     }
@@ -85,85 +90,98 @@ impl Rise<'_> {
         if safe(&to(most, dt)) {
             return (most > 0.0 || a > 0.0).then(|| to(most, dt));
         }
-        let (mut low, mut high) = (least, most);
-        let mut best = None;
-        for _ in 0..ROUNDS {
-            let mid = 0.5 * (low + high);
-            if safe(&to(mid, dt)) {
-                low = mid;
-                best = Some(mid);
-            } else {
-                high = mid;
-            }
-        }
-        match best {
-            // approaching the limit in ever smaller steps would never end
-            Some(next) if a > 0.0 || next > 2e-3 * up * dt => Some(to(next, dt)),
+        // approaching the limit in ever smaller steps would never end
+        let first = least + LEAST_RISE * up * dt;
+        if first >= most || !safe(&to(first, dt)) {
             // the ramp down that was checked with the previous step
-            _ if a <= 0.0 => None,
-            _ => Some(to(0.0, a / down)),
+            return (a > 0.0).then(|| to(0.0, a / down));
         }
+        let room = |next| {
+            let room = self.room(c, &to(next, dt), here.v);
+            // a limit that is just reached is kept
+            if room == 0.0 { f64::MIN_POSITIVE } else { room }
+        };
+        let (low, high) = ((first, room(first)), (most, room(most)));
+        let (next, _) = enclosed_root(low, high, PRECISION, room);
+        Some(to(next, dt))
     }
 
     /// Whether a step, and the ramp to zero after it, stay below the limits ahead that are not below speed `v`; a limit
     /// below `v` cuts the rise.
-    fn is_safe(&self, mut c: usize, step: &Phase, v: f64) -> bool {
+    fn is_safe(&self, c: usize, step: &Phase, v: f64) -> bool {
+        self.room(c, step, v) >= 0.0
+    }
+
+    /// Room in mm/s that a step, and the ramp to zero after it, leave below the limits ahead that are not below speed
+    /// `v`; a limit below `v` cuts the rise. Negative if one of them is exceeded.
+    fn room(&self, mut c: usize, step: &Phase, v: f64) -> f64 {
         #[cfg(test)]
         crate::closed_forms::add();
         let end = step.end();
-        if end.s >= self.cells[c].end || end.v > self.cells[c].v * (1.0 + SLACK) {
+        let mut room = end.v;
+        if end.s >= self.cells[c].end || end.v > self.cells[c].most() {
             loop {
                 let cell = &self.cells[c];
                 if end.s < cell.end {
-                    if end.v > cell.v * (1.0 + SLACK) {
-                        return false;
+                    room = room.min(cell.most() - end.v);
+                    if room < 0.0 {
+                        return room;
                     }
                     break;
                 }
-                if cell.is_exceeded(step) {
-                    return false;
+                room = room.min(cell.room_at_end(step));
+                if room < 0.0 {
+                    return room;
                 }
-                let Some(behind) = self.cells.get(c + 1) else { return true };
+                let Some(behind) = self.cells.get(c + 1) else { return room };
                 let limit = cell.cap.min(behind.v);
                 if end.v > limit {
                     let here = step.after(step.time_at(cell.end));
-                    if here.v > limit * (1.0 + SLACK) {
-                        return is_drop(limit, v);
+                    let left = limit * (1.0 + SLACK) - here.v;
+                    if left < 0.0 {
+                        return if is_drop(limit, v) { room } else { left };
                     }
+                    room = room.min(left);
                 }
-                if step.a.max(end.a) > behind.acc * (1.0 + SLACK) {
-                    return false;
+                let excess = step.a.max(end.a) - behind.acc * (1.0 + SLACK);
+                if excess > 0.0 {
+                    return -excess * self.dt;
                 }
                 c += 1;
             }
         }
-        if end.a <= 0.0 {
-            return is_level(self.cells, c, end.s, end.v, v);
-        }
         let [_, down, ..] = self.cells[c].jerks;
-        self.lands(c, &end.ramp(RampShape::Sin2, -down, end.a / down), v)
+        let ramp = end.ramp(RampShape::Sin2, -down, end.a.max(0.0) / down);
+        room.min(self.landing(c, &ramp, v))
     }
 
-    /// Whether the last part of a ramp to zero acceleration stays below these limits.
-    fn lands(&self, mut c: usize, phase: &Phase, v: f64) -> bool {
-        let end = phase.end();
+    /// As [`Self::room`], for the last part of a ramp to zero acceleration.
+    fn landing(&self, mut c: usize, ramp: &Phase, v: f64) -> f64 {
+        let end = ramp.end();
+        let mut room = end.v;
         loop {
             let cell = &self.cells[c];
             if end.s < cell.end {
-                return end.v <= cell.v * (1.0 + SLACK) && is_level(self.cells, c, end.s, end.v, v);
+                let left = cell.most() - end.v;
+                let level = left < 0.0 || is_level(self.cells, c, end.s, end.v, v);
+                return room.min(if level { left } else { -end.v });
             }
-            if cell.is_exceeded(phase) {
-                return false;
+            room = room.min(cell.room_at_end(ramp));
+            if room < 0.0 {
+                return room;
             }
-            let Some(behind) = self.cells.get(c + 1) else { return true };
+            let Some(behind) = self.cells.get(c + 1) else { return room };
             let limit = cell.cap.min(behind.v);
-            if end.v > limit || phase.a > behind.acc {
-                let here = phase.after(phase.time_at(cell.end));
-                if here.v > limit * (1.0 + SLACK) {
-                    return is_drop(limit, v);
+            if end.v > limit || ramp.a > behind.acc {
+                let here = ramp.after(ramp.time_at(cell.end));
+                let left = limit * (1.0 + SLACK) - here.v;
+                if left < 0.0 {
+                    return if is_drop(limit, v) { room } else { left };
                 }
-                if here.a > behind.acc * (1.0 + SLACK) {
-                    return false;
+                room = room.min(left);
+                let excess = here.a - behind.acc * (1.0 + SLACK);
+                if excess > 0.0 {
+                    return -excess * self.dt;
                 }
             }
             c += 1;
@@ -172,9 +190,14 @@ impl Rise<'_> {
 }
 
 impl Block {
-    /// Whether a phase of a rise that continues after the block is too fast at its end.
-    fn is_exceeded(&self, phase: &Phase) -> bool {
-        let most = self.v * (1.0 + SLACK);
-        phase.end().v > most && phase.after(phase.time_at(self.end)).v > most
+    /// The largest speed inside.
+    fn most(&self) -> f64 {
+        self.v * (1.0 + SLACK)
+    }
+
+    /// Room in mm/s below the largest speed at the end, for a phase of a rise that continues after the block, or less.
+    fn room_at_end(&self, phase: &Phase) -> f64 {
+        let left = self.most() - phase.end().v;
+        if left >= 0.0 { left } else { self.most() - phase.after(phase.time_at(self.end)).v }
     }
 }
