@@ -173,7 +173,8 @@ fn a_curve_keeps_the_limits_of_both_blocks() {
             "POS PRE_DIST=2 POST_DIST=2",
             "PTP PATH_DIST=3",
             "DIST PRE_DIST=2 POST_DIST=2",
-        ][pick(&mut random, 4)];
+            "DEV PATH_DEV=1 CONST_VEL",
+        ][pick(&mut random, 5)];
         let slope = ["STEP", "TRAPEZ", "SIN2", "HSC"][pick(&mut random, 4)];
         // limit, its end, and the speed in mm/s that it permits along X or Y
         let (limit, off, most) = [

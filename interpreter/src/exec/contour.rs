@@ -59,8 +59,6 @@ pub(super) struct Contour {
     pub(super) akima: Akima,
     interim: Interim,
     driven: Vec<Driven>,
-    /// Whether the last motion was compensated: the next one departs from where it ended.
-    compensated: bool,
     /// Control areas violated by motions since the last call.
     violations: Vec<Fault>,
     blocks: u64,
@@ -289,6 +287,20 @@ impl Contour {
         self.compensator.awaits_departure(held.map(|held| &held.block.path))
     }
 
+    /// Whether G40 is programmed, and the next motion in the plane begins where the tool is.
+    pub(super) fn departure_follows(&self) -> bool {
+        let departs = |motion: &Motion| {
+            let path = &motion.block.path;
+            let moves = |i: &usize| path.start()[*i].to_bits() != path.end()[*i].to_bits();
+            motion.tilt.is_some() || motion.plane.iter().any(moves)
+        };
+        self.compensator.deselected
+            && match &self.held {
+                Some(held) if held.compensation.is_some() => true,
+                held => self.compensator.is_active() && !held.as_deref().is_some_and(departs),
+            }
+    }
+
     /// Whether the corner after the last motion would be rounded without this stop, which the program does not ask for. A
     /// contoured corner is rounded with functions and dwells within its curve.
     pub(super) fn loses_corner(&self, stop: &Sync) -> bool {
@@ -361,7 +373,6 @@ impl Contour {
         let mut faults = self.flush();
         let left = self.compensator.leave(&mut self.done);
         self.emit();
-        self.compensated = false;
         let left = left.unwrap_or_else(|fault| {
             faults.push(*fault);
             None

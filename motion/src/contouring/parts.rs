@@ -26,7 +26,7 @@ impl Contouring {
     /// curve is to be constant.
     ///
     /// Assumption: the documents do not mention different feed rates or limits; they change where the block ends. A constant
-    /// speed is that of the slower feed rate, as far as the limits of both parts permit it.
+    /// speed is that of the slower feed rate, within the limits of both.
     pub(super) fn parts(
         &mut self,
         from: &Block,
@@ -35,17 +35,20 @@ impl Contouring {
         settings: &ContourSettings,
     ) -> Parts {
         let dev = [from, to].iter().filter_map(|b| b.tolerance.ax_dev_mm).min_by(f64::total_cmp);
-        let halves = [from, to].map(|of| {
+        let limits = limits(from, to, settings.constant_velocity);
+        let mut half = |of: &Block, limits: Arc<ChannelDynamics>| {
             let mut half = Block { seq: of.seq, contour: None, ..from.clone() };
             half.tolerance.ax_dev_mm = dev;
             half.full_override = of.full_override;
             half.dynamics = match settings.curve_jerk {
-                Some(check) => self.with_check(&of.dynamics, check),
-                None => Arc::clone(&of.dynamics),
+                Some(check) => self.with_check(&limits, check),
+                None => limits,
             };
             (half.feed, half.feed_ratio) = feed(of, from, to, settings);
             half
-        });
+        };
+        let [before, after] = limits;
+        let halves = [half(from, before), half(to, after)];
         let parts = if settings.constant_velocity { 1 } else { PARTS };
         let feed_axes = from.dynamics.feed_axes.clone();
         let limit = match settings.limit {
@@ -128,6 +131,28 @@ fn divide(
         }
         None => out.push(whole),
     }
+}
+
+/// Limits of the two parts of a curve: those of its blocks, in the modes of the first one. With a constant velocity both have the
+/// lower speeds.
+fn limits(from: &Block, to: &Block, constant_velocity: bool) -> [Arc<ChannelDynamics>; 2] {
+    let (a, b) = (&from.dynamics, &to.dynamics);
+    if Arc::ptr_eq(a, b) || (a.axes == b.axes && a.vector == b.vector) {
+        return [Arc::clone(a), Arc::clone(a)];
+    }
+    if !constant_velocity {
+        let after =
+            ChannelDynamics { axes: b.axes.clone(), vector: b.vector, ..ChannelDynamics::clone(a) };
+        return [Arc::clone(a), Arc::new(after)];
+    }
+    let mut both = ChannelDynamics::clone(a);
+    for (axis, other) in both.axes.iter_mut().zip(&b.axes) {
+        axis.v_max_mm_s = axis.v_max_mm_s.min(other.v_max_mm_s);
+    }
+    both.vector.vel_mm_s =
+        [a.vector.vel_mm_s, b.vector.vel_mm_s].into_iter().flatten().min_by(f64::total_cmp);
+    let both = Arc::new(both);
+    [Arc::clone(&both), both]
 }
 
 /// Feed and override ratio of the part of a curve that belongs to `of`, one of the blocks `from` and `to`.

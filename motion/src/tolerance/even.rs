@@ -69,7 +69,7 @@ impl Evenly<'_> {
         let step = speed * cycle.seconds();
         let mut walk = contour.walk();
         let place = |(weight, delay): &(f64, f64)| {
-            (*weight, (s + step * (kernels.delay - delay)).clamp(between.0, between.1))
+            (*weight, (s + step * (kernels.delay - delay)).max(between.0).min(between.1))
         };
         // equal kernels share their taps
         if !kernels.unequal

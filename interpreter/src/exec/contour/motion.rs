@@ -22,6 +22,8 @@ pub(in crate::exec) struct Motion {
     /// Whether the path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
+    /// Its path is that of the tool, which is known only when it is output: its limits are checked there.
+    pub(in crate::exec) driven: bool,
     /// The tool is at the contour of G41 or G42, on its left if true; not during approach and departure.
     pub(in crate::exec) engaged: Option<bool>,
     /// G05: it starts or ends the compensation with an arc.
@@ -95,6 +97,7 @@ impl Motion {
     /// Whether it becomes a step without further processing.
     pub(super) fn is_complete(&self) -> bool {
         self.compensation.is_none()
+            && !self.driven
             && self.tilt.is_none()
             && self.course.is_none()
             && !self.tangential

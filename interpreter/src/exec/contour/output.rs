@@ -79,9 +79,7 @@ impl Contour {
                 let Motion { block, source, span, .. } = &**motion;
                 let axes = 0..block.path.start().len();
                 let extents = axes.map(|axis| block.path.extent(axis));
-                let compensated = motion.compensation.is_some();
-                let departs = std::mem::replace(&mut self.compensated, compensated);
-                if (compensated || departs)
+                if motion.driven
                     && let Some(extents_mm) = extents.collect()
                 {
                     self.driven.push(Driven { extents_mm, source: *source, span: *span });

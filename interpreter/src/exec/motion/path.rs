@@ -195,8 +195,7 @@ impl Decoder {
             let text = "tool radius compensation starts with an arc while #OTC is on";
             return Err(Fault::new(Condition::WearSelectedInArc, text, span));
         }
-        // the path with tool radius compensation, and that of the departure from it, is known only later
-        if self.modal.compensation == Compensation::Off && !self.contour.compensates() {
+        if !self.is_driven() {
             let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
             self.check_limits(&path, place, span);
         }
@@ -305,6 +304,11 @@ impl Decoder {
         Ok(())
     }
 
+    /// Whether the path of the next motion is known only later: that with tool radius compensation, and the departure from it.
+    pub(super) fn is_driven(&self) -> bool {
+        self.modal.compensation != Compensation::Off || self.contour.departure_follows()
+    }
+
     /// Passes a motion on.
     pub(super) fn send(
         &mut self,
@@ -317,8 +321,10 @@ impl Decoder {
         let akima = self.contour.akima.selected && block.path.is_straight();
         let watch =
             self.motion.areas.watch(&self.geometry, &self.motion.independent.way, &self.names);
+        let driven = self.is_driven();
         let motion = Box::new(Motion {
             block,
+            driven,
             course,
             source: self.report.source,
             events: self.contour.take_events(),

@@ -254,7 +254,7 @@ impl Decoder {
             let limits = self.geometry.limits_mm[axis];
             limits.is_none_or(|l| !is_outside(start[axis], l) && !is_outside(end[axis], l))
         };
-        if words.targets.iter().all(|(target, _)| inside(target.axis)) {
+        if words.targets.iter().all(|(target, _)| inside(target.axis)) || self.is_driven() {
             return;
         }
         let end = end.clone();
