@@ -8,13 +8,20 @@ fn reader(bytes: &[u8]) -> BlockReader {
     BlockReader::new(MemorySources::new().with("a.nc", bytes).open("a.nc", None).unwrap())
 }
 
+type Block = (String, u32, u64);
+
 /// Text, line and offset of every block.
-fn blocks(reader: &mut BlockReader) -> Vec<(String, u32, u64)> {
+fn blocks(reader: &mut BlockReader) -> Vec<Block> {
+    readable(reader).unwrap()
+}
+
+/// The same, or the reason why the text is refused.
+fn readable(reader: &mut BlockReader) -> Result<Vec<Block>, String> {
     let mut found = Vec::new();
-    while let Some(block) = reader.next_block().unwrap() {
+    while let Some(block) = reader.next_block().map_err(|e| e.to_string())? {
         found.push((block.text.to_owned(), block.position.line, block.position.offset));
     }
-    found
+    Ok(found)
 }
 
 fn texts(bytes: &[u8]) -> Vec<String> {
@@ -151,10 +158,11 @@ proptest! {
         if latin {
             bytes.retain(|b| *b != 0xC3);
         }
-        let expected = blocks(&mut reader(&bytes));
+        // enough zero bytes are UTF-16, which is refused
+        let expected = readable(&mut reader(&bytes));
         let mut slow = BlockReader::new(Box::new(Slow(bytes, step)));
-        prop_assert_eq!(&blocks(&mut slow), &expected);
-        for (text, line, offset) in expected.into_iter().rev() {
+        prop_assert_eq!(&readable(&mut slow), &expected);
+        for (text, line, offset) in expected.into_iter().flatten().rev() {
             slow.seek(Position { offset, line });
             prop_assert_eq!(slow.next_block().unwrap().unwrap().text, text);
         }
