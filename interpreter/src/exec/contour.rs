@@ -31,7 +31,8 @@ use std::collections::VecDeque;
 pub(super) use feed_course::{PIECES_MAX, STEP};
 pub(super) use guarded::{Guarded, violated};
 pub(super) use motion::{
-    Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, local_ends, programmed_time_s,
+    Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, PathOf, local_ends,
+    programmed_time_s,
 };
 
 /// Motions and events to be sent to the simulation.

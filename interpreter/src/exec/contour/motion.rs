@@ -22,8 +22,8 @@ pub(in crate::exec) struct Motion {
     /// Whether the path is in the coordinates of the tilt.
     pub(in crate::exec) local: bool,
     pub(in crate::exec) compensation: Option<Compensated>,
-    /// Its path is that of the tool, which is known only when it is output: its limits are checked there.
-    pub(in crate::exec) driven: bool,
+    /// Whether its limits were checked along the programmed path, or are checked when it is output.
+    pub(in crate::exec) path_of: PathOf,
     /// The tool is at the contour of G41 or G42, on its left if true; not during approach and departure.
     pub(in crate::exec) engaged: Option<bool>,
     /// G05: it starts or ends the compensation with an arc.
@@ -36,6 +36,15 @@ pub(in crate::exec) struct Motion {
     pub(in crate::exec) watch: Option<Arc<Guarded>>,
     /// The block, for conditions.
     pub(in crate::exec) span: Span,
+}
+
+/// The path that counts for the software limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::exec) enum PathOf {
+    /// The programmed path.
+    Program,
+    /// That of the tool, known only when it is output: with tool radius compensation, and in the departure from it.
+    Tool,
 }
 
 /// Tool radius compensation of a motion.
@@ -97,7 +106,7 @@ impl Motion {
     /// Whether it becomes a step without further processing.
     pub(super) fn is_complete(&self) -> bool {
         self.compensation.is_none()
-            && !self.driven
+            && self.path_of == PathOf::Program
             && self.tilt.is_none()
             && self.course.is_none()
             && !self.tangential

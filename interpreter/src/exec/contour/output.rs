@@ -4,7 +4,7 @@ use super::{Contour, feed_course};
 use crate::diag::Condition;
 use crate::exec::contour::bottleneck::Cut;
 use crate::exec::contour::item::{Item, Rest};
-use crate::exec::contour::motion::{Driven, Motion};
+use crate::exec::contour::motion::{Driven, Motion, PathOf};
 use crate::exec::fault::Fault;
 use crate::exec::step::{AtCorner, Event, Step};
 use crate::syntax::ast::Span;
@@ -79,7 +79,7 @@ impl Contour {
                 let Motion { block, source, span, .. } = &**motion;
                 let axes = 0..block.path.start().len();
                 let extents = axes.map(|axis| block.path.extent(axis));
-                if motion.driven
+                if motion.path_of == PathOf::Tool
                     && let Some(extents_mm) = extents.collect()
                 {
                     self.driven.push(Driven { extents_mm, source: *source, span: *span });

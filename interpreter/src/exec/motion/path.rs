@@ -8,7 +8,7 @@ use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::Modal;
-use crate::exec::contour::{FeedCourse, Motion};
+use crate::exec::contour::{FeedCourse, Motion, PathOf};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
@@ -195,7 +195,7 @@ impl Decoder {
             let text = "tool radius compensation starts with an arc while #OTC is on";
             return Err(Fault::new(Condition::WearSelectedInArc, text, span));
         }
-        if !self.is_driven() {
+        if self.path_of_next() == PathOf::Program {
             let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
             self.check_limits(&path, place, span);
         }
@@ -304,9 +304,11 @@ impl Decoder {
         Ok(())
     }
 
-    /// Whether the path of the next motion is known only later: that with tool radius compensation, and the departure from it.
-    pub(super) fn is_driven(&self) -> bool {
-        self.modal.compensation != Compensation::Off || self.contour.departure_follows()
+    /// The path of the next motion that counts for the software limits.
+    pub(super) fn path_of_next(&self) -> PathOf {
+        let with_tool =
+            self.modal.compensation != Compensation::Off || self.contour.departure_follows();
+        if with_tool { PathOf::Tool } else { PathOf::Program }
     }
 
     /// Passes a motion on.
@@ -321,10 +323,10 @@ impl Decoder {
         let akima = self.contour.akima.selected && block.path.is_straight();
         let watch =
             self.motion.areas.watch(&self.geometry, &self.motion.independent.way, &self.names);
-        let driven = self.is_driven();
+        let path_of = self.path_of_next();
         let motion = Box::new(Motion {
             block,
-            driven,
+            path_of,
             course,
             source: self.report.source,
             events: self.contour.take_events(),

@@ -8,6 +8,7 @@ use super::plane::InPlane;
 use super::state::Straight;
 use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::modal::Modal;
+use crate::exec::contour::PathOf;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
@@ -254,7 +255,9 @@ impl Decoder {
             let limits = self.geometry.limits_mm[axis];
             limits.is_none_or(|l| !is_outside(start[axis], l) && !is_outside(end[axis], l))
         };
-        if words.targets.iter().all(|(target, _)| inside(target.axis)) || self.is_driven() {
+        if words.targets.iter().all(|(target, _)| inside(target.axis))
+            || self.path_of_next() == PathOf::Tool
+        {
             return;
         }
         let end = end.clone();
