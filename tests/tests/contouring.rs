@@ -161,8 +161,8 @@ fn a_curve_passes_no_software_limit_in_silence() {
     assert!(beyond > 10, "{beyond}");
 }
 
-/// The part of a curve that belongs to a block keeps the limits that the program set for it: of the path (`#VECTOR LIMIT`), of the axes
-/// (G127) and of rapid (G129). The speeds are those of the trace.
+/// The part of a curve that belongs to a block keeps the limits that the program set for it: of the path (`#VECTOR LIMIT`) and of the
+/// axes (G127). The speeds are those of the trace.
 #[test]
 fn a_curve_keeps_the_limits_of_both_blocks() {
     let mut random = Random::new(seed());

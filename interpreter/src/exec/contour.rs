@@ -24,6 +24,7 @@ use super::report::Report;
 use super::step::{AtCorner, EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SplineSettings;
 use kontur_motion::path::Path;
 use std::collections::VecDeque;
@@ -34,6 +35,9 @@ pub(super) use motion::{
     Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, PathOf, local_ends,
     programmed_time_s,
 };
+
+/// Directions that differ by at most this are tangential: such a transition is not contoured.
+const TANGENTIAL: f64 = 1e-6;
 
 /// Motions and events to be sent to the simulation.
 #[derive(Debug, Default)]
@@ -349,6 +353,21 @@ impl Contour {
             return Err(Fault::new(Condition::FlushInSpline, text, span));
         }
         Ok(())
+    }
+
+    /// No corner is lost where a path continues the last motion in its direction.
+    pub(super) fn continue_along(&mut self, path: &Path) {
+        let Some(held) = &mut self.held else { return };
+        let before = &held.block.path;
+        let tangent = |path: &Path, s: f64| {
+            let mut tangent = AxisVec::zeros(path.start().len());
+            path.tangent(s, &mut tangent);
+            tangent
+        };
+        let (end, start) = (tangent(before, before.length()), tangent(path, 0.0));
+        if end.iter().zip(start.iter()).all(|(a, b)| (a - b).abs() <= TANGENTIAL) {
+            held.block.contour = None;
+        }
     }
 
     /// The corner after the last motion is not rounded.

@@ -73,6 +73,7 @@ fn edges(samples: &[f64], rate_hz: f64, width: usize) -> Vec<Edge> {
     let highest = |range: Range<usize>| heights[range].iter().fold(0.0, |a: f64, h| a.max(h.abs()));
     let far = BESIDE * width;
     let window = (LEVEL_S * rate_hz) as usize;
+    let drift = drift(samples, window);
     let is_jump = |at: &usize| {
         let h = heights[*at];
         let beside = || {
@@ -84,17 +85,29 @@ fn edges(samples: &[f64], rate_hz: f64, width: usize) -> Vec<Edge> {
         }
         let before = level(&samples[(at + 1 - width).saturating_sub(window)..at + 1 - width]);
         let after = level(&samples[at + width - 1..(at + width - 1 + window).min(n)]);
-        let (Some(before), Some(after)) = (before, after) else { return false };
-        (after - before - h).abs() < SAME * h.abs()
+        let (Some((before, from)), Some((after, to))) = (before, after) else { return false };
+        let apart = (2 * width - 2) as f64 + 0.5 * (from + to);
+        (after - before - drift * apart - h).abs() < SAME * h.abs()
     };
     let with_edges_beside = 2 * width..(n + 1).saturating_sub(2 * width);
     with_edges_beside.filter(is_jump).map(|at| Edge { at, width, height: heights[at] }).collect()
 }
 
-/// The level of enough samples: their mean under a Hann window, in which vibrations vanish.
-fn level(samples: &[f64]) -> Option<f64> {
+/// Drift per sample: the median of the differences over a window, which a jump does not change.
+fn drift(samples: &[f64], window: usize) -> f64 {
+    let mut steps: Vec<f64> =
+        samples.iter().zip(samples.iter().skip(window)).map(|(a, b)| b - a).collect();
+    if window == 0 || steps.is_empty() {
+        return 0.0;
+    }
+    let middle = steps.len() / 2;
+    *steps.select_nth_unstable_by(middle, f64::total_cmp).1 / window as f64
+}
+
+/// The level of enough samples, and their number: their mean under a Hann window, in which vibrations vanish.
+fn level(samples: &[f64]) -> Option<(f64, f64)> {
     let n = samples.len() as f64;
     let weight = |i: usize| 1.0 - libm::cos(TAU * (i as f64 + 0.5) / n);
     let sum = || samples.iter().enumerate().map(|(i, x)| weight(i) * x).sum::<f64>();
-    (samples.len() >= LEAST_SAMPLES).then(|| sum() / n)
+    (samples.len() >= LEAST_SAMPLES).then(|| (sum() / n, n))
 }

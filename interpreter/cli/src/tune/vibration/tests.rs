@@ -207,7 +207,8 @@ fn a_jump_of_the_level_is_no_vibration() {
         let high = r.log(0.3, 5.0) * if r.ratio() < 0.5 { -1.0 } else { 1.0 };
         let blow = |t: f64| if t < 0.2 { 0.0 } else { swing(t - 0.2, (f, z), 0.3) };
         let jump = |t: f64| if t < at { 0.0 } else { ((t - at) / edge_s).min(1.0) };
-        let of = found(|t| blow(t) + high * jump(t), 0.01);
+        let drift = r.between(-2.0, 2.0);
+        let of = found(|t| blow(t) + drift * t + high * jump(t), 0.01);
         let what = format!(
             "{case}: {f:.3} Hz, {z:.4}, {high:.3} at {at:.3} s: {:?}, {:?}",
             of.modes, of.jumps

@@ -49,6 +49,7 @@ impl Decoder {
             self.report.note_once(Subject::Only, Fault::new(Condition::UnequalKernels, text, span));
         }
         // the tool is not driven into its thread in a curve
+        self.contour.continue_along(&block.path);
         if self.contour.loses_corner(&Sync::Halt) {
             self.sync(Sync::Halt);
         }

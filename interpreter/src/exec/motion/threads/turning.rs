@@ -70,6 +70,7 @@ impl Decoder {
         if !self.motion.threads.cutting {
             let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
             let state = SpindleState::Mark { deg, full_override: block.full_override };
+            self.contour.continue_along(&block.path);
             self.sync(Sync::Spindle { spindle: index, state });
             self.motion.threads.cutting = true;
         }
