@@ -1,6 +1,6 @@
 ; run --set X.vib_guard.mode=2 --set X.vib_guard.freq=15 --set Y.vib_guard.mode=1 --set Y.vib_guard.freq=40 --set Z.vib_guard.mode=1 --set Z.vib_guard.freq=20: exit 0
 ; warning K-0112 at 5:1
-; The path length of a cycle that is planned is smaller than that of the last one by 2e-13 mm.
+(The path length of a cycle that is planned is smaller than that of the last one by 2e-13 mm.)
 #SLOPE [TYPE=SIN2]
 #VIB GUARD ON [AX_DEV=0.02]
 #CONTOUR MODE ON [PTP PATH_DIST=1]

@@ -115,9 +115,15 @@ pub(super) fn interval(e: Estimate, decimals: usize) -> String {
     format!("{} +- {}", number(e.value, decimals), number(rounded_up, decimals))
 }
 
-/// Remarks on one recording in addition to its vibrations.
-fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
-    let Recording { name, missing, found, rate_hz, .. } = recording;
+/// Times of samples in s, with commas between them.
+fn times(samples: impl Iterator<Item = usize>, rate_hz: f64) -> String {
+    let times: Vec<_> = samples.map(|i| format!("{:.2} s", i as f64 / rate_hz)).collect();
+    times.join(", ")
+}
+
+/// Remarks on how a recording was made.
+fn of_recorder(recording: &Recording, lost_s: Option<f64>) -> Vec<String> {
+    let Recording { missing, found, rate_hz, .. } = recording;
     let mut notes = Vec::new();
     if let Some(lost_s) = lost_s {
         notes.push(format!(
@@ -129,15 +135,9 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
     if found.clipped > 0 {
         notes.push(format!("{} samples at the limit of the recorder, ignored", found.clipped));
     }
-    let times = |starts: &mut dyn Iterator<Item = usize>| {
-        let times: Vec<_> = starts.map(|i| format!("{:.2} s", i as f64 / rate_hz)).collect();
-        times.join(", ")
-    };
     if !found.jumps.is_empty() {
-        notes.push(format!(
-            "its level jumps at {}; the parts are evaluated one by one",
-            times(&mut found.jumps.iter().copied())
-        ));
+        let jumps = times(found.jumps.iter().copied(), *rate_hz);
+        notes.push(format!("its level jumps at {jumps}; the parts are evaluated one by one"));
     }
     if let Some(steps) = found.steps {
         notes.push(format!(
@@ -146,6 +146,13 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
             number(steps, 0)
         ));
     }
+    notes
+}
+
+/// Remarks on one recording in addition to its vibrations.
+fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
+    let Recording { name, found, rate_hz, .. } = recording;
+    let mut notes = of_recorder(recording, lost_s);
     if found.modes.first().is_some_and(|m| m.peak_ratio < 1.0) {
         notes.push(
             "the highest peak is that of a transient, not of a vibration: an excitation, a jump or a drift; select a \
@@ -154,7 +161,7 @@ fn remarks(recording: &Recording, lost_s: Option<f64>) -> String {
         );
     }
     if found.decays.len() > 1 {
-        let starts = times(&mut found.decays.iter().map(|d| d.samples.start));
+        let starts = times(found.decays.iter().map(|d| d.samples.start), *rate_hz);
         notes.push(format!("{} decays, from {starts}", found.decays.len()));
     }
     if let Some(misfit) = found.misfit {
@@ -285,6 +292,26 @@ mod tests {
         let word = text.replace("0.002,1,", "0.002,one,");
         assert!(message(read_with(&word, &["--column", "a"])).contains("row 3, column a"));
         assert!(matches!(recorded::read(Path::new("no.csv")), Err(Error::Io { .. })));
+    }
+
+    /// A jump of the level and a coarse recorder are told, and nothing of a good recording.
+    #[test]
+    fn remarks_on_the_recorder() {
+        let notes = |step: f64, jump: f64| {
+            let value = |i: i32| {
+                let t = f64::from(i) * 1e-3;
+                let x = libm::exp(-3.8 * t) * libm::sin(125.6 * t);
+                let x = (x / step).round() * step;
+                x + if i < 1000 { 0.0 } else { jump }
+            };
+            let rows: Vec<String> =
+                (0..2500).map(|i| format!("{:.3},{:.6}", f64::from(i) * 1e-3, value(i))).collect();
+            let recording = read_with(&format!("t_s,a\n{}\n", rows.join("\n")), &[]).unwrap();
+            remarks(&recording, None)
+        };
+        assert_eq!(notes(1e-6, 0.0), "");
+        assert!(notes(1e-6, 2.0).contains("jumps at 1.0"), "{}", notes(1e-6, 2.0));
+        assert!(notes(0.1, 0.0).contains("in 9 steps") || notes(0.1, 0.0).contains("in 10 steps"));
     }
 
     /// A half width is not printed as zero, and never too small.
