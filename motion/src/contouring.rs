@@ -46,6 +46,7 @@ use rounding::{Curve, curve};
 use std::sync::Arc;
 
 pub use notice::{NoContour, Notice};
+pub use rounding::is_tangential;
 
 /// Number of consecutive blocks too short to be relevant, after which one of them counts all the same.
 const SKIPPED: usize = 100;

@@ -166,6 +166,7 @@ fn a_curve_passes_no_software_limit_in_silence() {
 #[test]
 fn a_curve_keeps_the_limits_of_both_blocks() {
     let mut random = Random::new(seed());
+    let mut rounded = 0;
     for _ in 0..count(24) {
         let pick = |random: &mut Random, of: usize| (random.ratio() * of as f64) as usize;
         let mode = [
@@ -208,5 +209,7 @@ fn a_curve_keeps_the_limits_of_both_blocks() {
         let permitted = if most.is_nan() { straight * std::f64::consts::SQRT_2 } else { straight };
         assert!(fastest <= 1.001 * permitted, "{fastest} of {permitted} mm/s\n{program}");
         assert!(fastest > 0.5 * straight, "{fastest} of {straight} mm/s\n{program}");
+        rounded += u32::from(contoured.diagnostics.iter().all(|d| d.id != Condition::CornerFaster));
     }
+    assert!(rounded > 6, "{rounded}");
 }

@@ -11,6 +11,7 @@ mod interim;
 mod item;
 mod motion;
 mod output;
+mod passing;
 
 use self::akima::{Akima, Curve};
 use self::compensation::Compensator;
@@ -24,9 +25,9 @@ use super::report::Report;
 use super::step::{AtCorner, EndReason, Event, SourceRef, Step, Sync};
 use crate::diag::Condition;
 use crate::syntax::ast::Span;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SplineSettings;
 use kontur_motion::path::Path;
+use passing::Passing;
 use std::collections::VecDeque;
 
 pub(super) use feed_course::{PIECES_MAX, STEP};
@@ -35,9 +36,6 @@ pub(super) use motion::{
     Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, PathOf, local_ends,
     programmed_time_s,
 };
-
-/// Directions that differ by at most this are tangential: such a transition is not contoured.
-const TANGENTIAL: f64 = 1e-6;
 
 /// Motions and events to be sent to the simulation.
 #[derive(Debug, Default)]
@@ -74,15 +72,6 @@ pub(super) struct Contour {
     stopped_exactly: bool,
     /// The corner at which the path waits, after the last motion has left.
     waits_at: Passing,
-}
-
-/// How the path passes a corner unless it stops there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Passing {
-    #[default]
-    Sharp,
-    Contoured,
-    Splined,
 }
 
 impl Contour {
@@ -306,33 +295,6 @@ impl Contour {
             }
     }
 
-    /// Whether the corner after the last motion would be rounded without this stop, which the program does not ask for. A
-    /// contoured corner is rounded with functions and dwells within its curve.
-    pub(super) fn loses_corner(&self, stop: &Sync) -> bool {
-        match self.corner() {
-            Passing::Sharp => false,
-            Passing::Contoured => stop.at_corner() == AtCorner::Lost,
-            Passing::Splined => stop.at_corner() != AtCorner::Kept,
-        }
-    }
-
-    /// What is to become of the corner after the last motion.
-    fn corner(&self) -> Passing {
-        match &self.held {
-            Some(held) if held.block.contour.is_some() => Passing::Contoured,
-            Some(held) if held.block.spline.is_some() && self.hsc.spline().is_some() => {
-                Passing::Splined
-            }
-            Some(_) => Passing::Sharp,
-            None => self.waits_at,
-        }
-    }
-
-    /// Whether the corner after the last motion is to be rounded by contouring.
-    pub(super) fn has_contoured_corner(&self) -> bool {
-        matches!(self.corner(), Passing::Contoured)
-    }
-
     /// An exact stop ends a B-spline: K-0111 unless AUTO_OFF_G60 asks for it.
     pub(super) fn spline_stops(&self, span: Span, report: &mut Report) {
         if self.hsc.off_at_stop || self.hsc.spline().is_none() {
@@ -353,28 +315,6 @@ impl Contour {
             return Err(Fault::new(Condition::FlushInSpline, text, span));
         }
         Ok(())
-    }
-
-    /// No corner is lost where a path continues the last motion in its direction.
-    pub(super) fn continue_along(&mut self, path: &Path) {
-        let Some(held) = &mut self.held else { return };
-        let before = &held.block.path;
-        let tangent = |path: &Path, s: f64| {
-            let mut tangent = AxisVec::zeros(path.start().len());
-            path.tangent(s, &mut tangent);
-            tangent
-        };
-        let (end, start) = (tangent(before, before.length()), tangent(path, 0.0));
-        if end.iter().zip(start.iter()).all(|(a, b)| (a - b).abs() <= TANGENTIAL) {
-            held.block.contour = None;
-        }
-    }
-
-    /// The corner after the last motion is not rounded.
-    pub(super) fn keep_corner(&mut self) {
-        if let Some(held) = &mut self.held {
-            held.block.contour = None;
-        }
     }
 
     /// G40 (true), G41, G42.

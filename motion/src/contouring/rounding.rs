@@ -58,6 +58,15 @@ fn longest(path: &Path, settings: &ContourSettings) -> f64 {
 /// manual prints turns by 0.00001 rad and counts as a corner (15556713099).
 const TANGENTIAL: f64 = 1e-6;
 
+/// Whether a path continues another one in its direction, over all axes: such a transition is not contoured.
+pub fn is_tangential(from: &Path, to: &Path) -> bool {
+    let n = from.start().len();
+    let (mut a, mut b) = (AxisVec::zeros(n), AxisVec::zeros(n));
+    from.tangent(from.length(), &mut a);
+    to.tangent(0.0, &mut b);
+    a.iter().zip(b.iter()).all(|(a, b)| (b - a).abs() <= TANGENTIAL)
+}
+
 /// The curve at the corner between two blocks; `None` if there is no corner.
 pub(super) fn curve(
     held: &Held,

@@ -310,7 +310,7 @@ mod tests {
             remarks(&recording, None)
         };
         assert_eq!(notes(1e-6, 0.0), "");
-        assert!(notes(1e-6, 2.0).contains("jumps at 1.0"), "{}", notes(1e-6, 2.0));
+        assert!(notes(1e-6, 2.0).contains("jumps at 1.00 s"), "{}", notes(1e-6, 2.0));
         assert!(notes(0.1, 0.0).contains("in 9 steps") || notes(0.1, 0.0).contains("in 10 steps"));
     }
 

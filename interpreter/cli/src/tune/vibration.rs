@@ -96,7 +96,8 @@ pub fn analyse(samples: &[f64], missing: &[Range<usize>], rate_hz: f64, focus: &
     let mut all = all.into_iter().map(|(found, _)| found);
     let mut result = all.next().unwrap_or_default();
     result.clipped = clipped;
-    result.jumps = parts.iter().skip(1).map(|part| part.start + first).collect();
+    let edge = |parts: &[Range<usize>]| parts[0].end.midpoint(parts[1].start) + first;
+    result.jumps = parts.windows(2).map(edge).collect();
     for other in all {
         result.merge(other);
     }
@@ -150,7 +151,8 @@ fn resolved(samples: &[f64], decay: &Range<usize>, step: f64) -> Option<Range<us
     let mut sorted = of.to_vec();
     let middle = sorted.len() / 2;
     let level = *sorted.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let last = of.iter().rposition(|x| (x - level).abs() > LEAST_STEPS * step)?;
+    // of a swing below the steps nothing is left
+    let last = of.iter().rposition(|x| (x - level).abs() > LEAST_STEPS * step).unwrap_or(0);
     Some(decay.start..decay.start + (last + 1).max(64).min(of.len()))
 }
 

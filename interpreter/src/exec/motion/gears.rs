@@ -4,8 +4,8 @@
 //!
 //! Source: TF5200 programming manual 206730251, 208157451; diagnosis 60285 (259710859), 3210 (249505419).
 //!
-//! Assumptions: the path comes to rest and the axes are in position (P-AXIS-00236) before the change; gantry slaves keep their own stage; a spindle is at rest
-//! after M5, whether or not its ramp has ended, and the change waits for the end of the ramp.
+//! Assumptions: the path comes to rest and the axes are in position (P-AXIS-00236) before the change; gantry slaves keep their
+//! own stage; a spindle is at rest after M5, whether or not its ramp has ended, and the change waits for the end of the ramp.
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{GWord, Words};

@@ -53,7 +53,7 @@ pub struct Analysis {
     pub swing: f64,
     /// Samples at the limit of the recorder.
     pub clipped: usize,
-    /// First samples after jumps of the level.
+    /// Samples at which the level jumps.
     pub jumps: Vec<usize>,
     /// Steps of the recorder within the amplitude, if they are few and coarser than the noise: then the rounding of the
     /// samples is no white noise, and the intervals are too small.

@@ -218,7 +218,7 @@ fn a_jump_of_the_level_is_no_vibration() {
         assert!((mode.damping.value / z - 1.0).abs() < 0.1, "{what}");
         assert!(mode.peak_ratio >= 1.0, "{what}");
         let [jumped] = of.jumps[..] else { panic!("{what}") };
-        assert!((jumped as f64 * 1e-3 - at).abs() < 0.015, "{what}");
+        assert!((jumped as f64 * 1e-3 - at).abs() < 0.006, "{what}");
     }
 }
 
@@ -238,6 +238,16 @@ fn a_coarse_recorder_splits_no_vibration() {
         assert!((mode.freq.value / f - 1.0).abs() < 0.01, "{what}");
         assert!((mode.damping.value / z - 1.0).abs() < 0.2, "{what}");
         assert!(of.steps.is_some_and(|found| (found / steps - 1.0).abs() < 0.35), "{what}");
+    }
+}
+
+/// A recorder whose step is larger than the amplitude records rectangles, in which nothing is found.
+#[test]
+fn rectangles_are_no_vibration() {
+    for amplitude in [0.8, 1.2] {
+        let blow = |t: f64| if t < 0.2 { 0.0 } else { swing(t - 0.2, (20.0, 0.03), 0.3) };
+        let of = found(|t| (amplitude * blow(t)).round(), 0.0);
+        assert!(of.modes.is_empty() && of.steps.is_some(), "{amplitude}: {:?}", of.modes);
     }
 }
 
