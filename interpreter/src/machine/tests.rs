@@ -3,6 +3,7 @@ mod reactions;
 use super::table::kontur;
 use super::*;
 use crate::diag::{Condition, Diagnostic};
+use kontur_filters::control::plant::PlantModel;
 use kontur_motion::block::{SlopeKind, TransitionJerkMode};
 use std::collections::BTreeMap;
 
@@ -239,6 +240,31 @@ fn entries_of_kontur_lis_that_nothing_reads() {
         assert_eq!(said(&format!("{two}kontur.axis[1].plant.{key}\n")), [0; 0], "{key}");
     }
     assert_eq!(said(&format!("{two}kontur.axis[1].plant.ta_us 5000\n")), [2]);
+}
+
+/// One mass alone is a share of the whole; of two only the ratio counts.
+#[test]
+fn masses_of_motor_and_load() {
+    let ratio = |keys: &[&str]| {
+        let entries = ["model TWO_MASS"].iter().chain(keys);
+        let lines = entries.map(|entry| format!("kontur.axis[1].plant.{entry}\n"));
+        let mut files = Memory::machine();
+        files.put("m/kontur.lis", &lines.collect::<String>());
+        let (machine, _) = files.load(&[]).unwrap();
+        match &machine.chains().0[0].control.plant.model {
+            PlantModel::TwoMass(config) => config.load_to_motor_ratio,
+            other => panic!("{other:?}"),
+        }
+    };
+    for keys in [
+        &["mass_motor 0.8"][..],
+        &["mass_load 0.2"],
+        &["mass_motor 0.8", "mass_load 0.2"],
+        &["mass_motor 20", "mass_load 5"],
+    ] {
+        assert!((ratio(keys) - 0.25).abs() < 1e-12, "{keys:?}");
+    }
+    assert!((ratio(&[]) - 1.0).abs() < 1e-12);
 }
 
 /// Several axes by name, and all path axes, which excludes the spindle.

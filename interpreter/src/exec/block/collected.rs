@@ -55,7 +55,7 @@ pub(in crate::exec) struct Words<'b> {
     /// Spindle and speed.
     pub(in crate::exec) speeds: SmallVec<[(usize, f64, Span); 1]>,
     /// Spindle and angle of M19 (`S.POS=180`).
-    pub(in crate::exec::block) angles: SmallVec<[(usize, f64, Span); 1]>,
+    pub(in crate::exec) angles: SmallVec<[(usize, f64, Span); 1]>,
     /// Spindle and angle of the start of a thread (`S.OFFSET=90`).
     pub(in crate::exec) offsets: SmallVec<[(usize, f64, Span); 1]>,
     pub(in crate::exec::block) tool: Option<Placed>,

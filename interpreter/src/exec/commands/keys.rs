@@ -138,7 +138,10 @@ pub(in crate::exec) fn read_all(
     let items: &[Item] = group.map_or(&[], |g| &g.items);
     let mut at = 0;
     while let Some(item) = items.get(at) {
-        if let Some(fault) = items[..at].last().and_then(|before| decimal_comma(before, item)) {
+        if let Some((intended, fault)) =
+            items[..at].last().and_then(|before| decimal_comma(before, item))
+        {
+            found.correct(intended);
             decoder.report.note(fault);
             at += 1;
             continue;
@@ -174,8 +177,9 @@ pub(in crate::exec) fn read_all(
     Ok(found)
 }
 
-/// `PATH_DEV=0,01`: a number with a decimal comma is read as a pair and a value without a key.
-fn decimal_comma(before: &Item, item: &Item) -> Option<Box<Fault>> {
+/// `PATH_DEV=0,01`: a number with a decimal comma is read as a pair and a value without a key. The intended number, and
+/// the fault.
+fn decimal_comma(before: &Item, item: &Item) -> Option<(f64, Box<Fault>)> {
     let ItemKind::Pair { key, value: ItemValue::Expr(Expr { kind: ExprKind::Number(whole), .. }) } =
         &before.kind
     else {
@@ -187,15 +191,15 @@ fn decimal_comma(before: &Item, item: &Item) -> Option<Box<Fault>> {
     };
     let comma = before.span.start + before.span.len;
     let adjacent = item.span.start == comma + 1;
-    (adjacent && *digits >= 0.0 && digits.fract() == 0.0).then(|| {
-        let places = item.span.len as usize;
-        Fault::new(
-            Condition::Syntax,
-            "a number with a decimal comma",
-            Span { start: comma, len: 1 },
-        )
-        .hint(format!("write {}={whole}.{digits:0places$}", key.text))
-    })
+    if !adjacent || *digits < 0.0 || digits.fract() != 0.0 {
+        return None;
+    }
+    let places = item.span.len as usize;
+    let written = format!("{whole}.{digits:0places$}");
+    let at = Span { start: comma, len: 1 };
+    let fault = Fault::new(Condition::Syntax, "a number with a decimal comma", at)
+        .hint(format!("write {}={written}", key.text));
+    Some((written.parse().ok()?, fault))
 }
 
 /// Joins a key and the word after it to one item.

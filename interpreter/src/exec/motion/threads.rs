@@ -149,7 +149,7 @@ impl Decoder {
     /// Tapping drives the spindle in every block until the next G function of its group.
     ///
     /// # Errors
-    /// 21000: M3, M4, M5 or M19 of the main spindle while G63, G331 or G332 is active (208104203, 413715595).
+    /// 21000: M3, M4, M5, M19 or a position of the main spindle while G63, G331 or G332 is active (208104203, 413715595).
     pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
         let name = match self.modal.path_mode(words) {
             PathMode::Tapping => "G63",
@@ -161,15 +161,25 @@ impl Decoder {
         let main = brackets.filter(|b| {
             self.motion.spindle_of_name(b.name.as_str(), &self.machine.channel) == Some(0)
         });
-        let bracketed = main.flat_map(|b| &b.group.items).filter_map(|item| {
-            let ItemKind::Flag(word) = &item.kind else { return None };
-            let digits = word.text.strip_prefix(['M', 'm'])?;
-            Some((digits.parse().ok()?, item.span))
+        let bracketed = main.flat_map(|b| &b.group.items).filter_map(|item| match &item.kind {
+            ItemKind::Flag(word) => {
+                let digits = word.text.strip_prefix(['M', 'm'])?;
+                Some((Some(digits.parse().ok()?), item.span))
+            }
+            ItemKind::Pair { key, .. } if key.is("POS") => Some((None, item.span)),
+            _ => None,
         });
-        let mut functions = words.m.iter().map(|m| (m.number, m.span)).chain(bracketed);
-        match functions.find(|(number, _)| matches!(number, 3..=5 | 19)) {
-            Some((number, span)) => {
-                let text = format!("M{number:02} while {name} turns the spindle");
+        let angles = words.angles.iter().filter(|(spindle, ..)| *spindle == 0);
+        let angles = angles.map(|(.., span)| (None, *span));
+        let functions = words.m.iter().map(|m| (Some(m.number), m.span));
+        let mut turning = functions
+            .chain(bracketed)
+            .chain(angles)
+            .filter(|(m, _)| m.is_none_or(|number| matches!(number, 3..=5 | 19)));
+        match turning.next() {
+            Some((m, span)) => {
+                let word = m.map_or("POS".to_string(), |number| format!("M{number:02}"));
+                let text = format!("{word} while {name} turns the spindle");
                 Err(Fault::new(Condition::TappingSpindleFunction, text, span))
             }
             None => Ok(()),

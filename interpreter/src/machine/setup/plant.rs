@@ -78,7 +78,7 @@ fn model(axis: &Axis) -> PlantModel {
     match axis.get(of::PLANT_MODEL).as_deref() {
         Some("PT1") => PlantModel::FirstOrder { time_constant_s: axis.get(of::TIME_CONSTANT) },
         Some("TWO_MASS") => PlantModel::TwoMass(TwoMassConfig {
-            load_to_motor_ratio: axis.get(of::MASS_LOAD) / axis.get(of::MASS_MOTOR),
+            load_to_motor_ratio: load_to_motor(axis),
             resonance_hz: axis.get(of::RESONANCE),
             damping_ratio: axis.get(of::DAMPING),
             speed_loop: speed_loop(),
@@ -93,6 +93,17 @@ fn model(axis: &Axis) -> PlantModel {
             natural_rad_s: axis.listed(axis_drive::SIMU_FREQUENCY_NUM)
                 / axis.listed(axis_drive::SIMU_FREQUENCY_DENOM),
         },
+    }
+}
+
+/// Ratio of the masses of TWO_MASS. One alone is a share of the whole, and the other side has the rest.
+fn load_to_motor(axis: &Axis) -> f64 {
+    let [motor, load] = [of::MASS_MOTOR, of::MASS_LOAD].map(|mass| axis.get(mass));
+    let is_set = |mass: Param<Number>| axis.set_by(mass.at(axis.number())).is_some();
+    match (is_set(of::MASS_MOTOR), is_set(of::MASS_LOAD)) {
+        (true, false) => (1.0 - motor) / motor,
+        (false, true) => load / (1.0 - load),
+        _ => load / motor,
     }
 }
 

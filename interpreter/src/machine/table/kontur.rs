@@ -23,9 +23,9 @@ parameters! {
         .range(Bound::At(1.0), Bound::None).default(500.0).unit("us", "us").outside(Condition::ListRange, Correction::Refuse), as CURRENT_TIME: Number;
     own("kontur.axis[i].plant.inertia", Raw::Real64, "inertia at the motor shaft, or moved mass of a linear motor, on which an additive torque actually acts; 0: value of the axis list (P-AXIS-00391)")
         .range(Bound::At(0.0), Bound::None).default(0.0).unit("kg m2 or kg", "kg m2").outside(Condition::ListRange, Correction::Refuse), as INERTIA: Number;
-    own("kontur.axis[i].plant.mass_motor", Raw::Real64, "TWO_MASS: inertia on the motor side, relative to the whole")
+    own("kontur.axis[i].plant.mass_motor", Raw::Real64, "TWO_MASS: inertia on the motor side, relative to that on the load side; alone, its share of the whole, below 1")
         .range(Bound::Beyond(0.0), Bound::None).default(0.5).outside(Condition::ListRange, Correction::Refuse), as MASS_MOTOR: Number;
-    own("kontur.axis[i].plant.mass_load", Raw::Real64, "TWO_MASS: inertia on the load side, relative to the whole")
+    own("kontur.axis[i].plant.mass_load", Raw::Real64, "TWO_MASS: inertia on the load side, relative to that on the motor side; alone, its share of the whole, below 1")
         .range(Bound::Beyond(0.0), Bound::None).default(0.5).outside(Condition::ListRange, Correction::Refuse), as MASS_LOAD: Number;
     own("kontur.axis[i].plant.f0", Raw::Real64, "TWO_MASS: natural frequency of the two free masses")
         .range(Bound::Beyond(0.0), Bound::None).default(50.0).unit("Hz", "Hz").outside(Condition::ListRange, Correction::Refuse), as RESONANCE: Number;

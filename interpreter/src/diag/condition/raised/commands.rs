@@ -4,7 +4,7 @@
 macro_rules! commands {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
-    TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63, G331 or G332 is active", cause "M3, M4, M5 or M19 in the block of G63 or after it", hint "write G00 or G01 before it: G63, G331 and G332 are modal";
+    TappingSpindleFunction = Vendor 21000: Error ProgramAbort 3 1, "spindle function while G63, G331 or G332 is active", cause "M3, M4, M5, M19 or S.POS in the block of G63 or after it", hint "write G00 or G01 before it: G63, G331 and G332 are modal";
     GantrySlaveInChannel = Vendor 21020: Error JobAbort 7 0, "gantry slave listed as an axis of the channel", cause "an axis of the channel list whose axis list names a gantry master", hint "remove it from the channel list (it follows its master), or set kenngr.gantry_ax_nr to 0", parameter "P-AXIS-00070";
     SizeOfSystemVariable = Vendor 21023: Error ProgramAbort 3 1, "SIZEOF of a variable of the control", cause "SIZEOF[V.G.WZ_AKT.V[1]]", hint "SIZEOF takes arrays of the program: P, V.P, V.L, V.S";
     CentreAndRadius = Vendor 21024: Error ProgramAbort 3 1, "both centre and radius given", hint "remove R, or I, J and K";

@@ -129,6 +129,13 @@ impl Found {
         self.found.push((key, written, at));
     }
 
+    /// Replaces the number of the last key, if it has one.
+    pub(super) fn correct(&mut self, number: f64) {
+        if let Some((_, Written::Number(last), _)) = self.found.last_mut() {
+            *last = number;
+        }
+    }
+
     pub(super) fn get(&self, name: &str) -> Option<(&Written, &Span)> {
         self.found.iter().find(|(n, _, _)| *n == name).map(|(_, written, span)| (written, span))
     }

@@ -25,7 +25,8 @@ use std::sync::Arc;
 const EVENTS_MAX: usize = 1000;
 
 /// What is said of a block without certain words.
-const OF_MISSING_WORDS: [Condition; 2] = [Condition::FeedZero, Condition::AxisMissing];
+const OF_MISSING_WORDS: [Condition; 3] =
+    [Condition::FeedZero, Condition::AxisMissing, Condition::ArcRadiusZero];
 
 impl Executor {
     /// Executes one block.
