@@ -14,6 +14,8 @@ const WEIGHT_RATIO: (f64, f64) = (0.7, 1.0);
 const SETTLING_US: (f64, f64) = (10_000.0, 200_000.0);
 /// Recommended ratio of the exact-stop window to the lag at standstill, at least (P-AXIS-00236).
 const WINDOW_LAGS: f64 = 3.0;
+/// Smallest filter constant of the standard lag monitor (P-AXIS-00167, with P-AXIS-00172 = 1).
+const LAG_DYNAMICS_MIN: f64 = 700.0;
 
 /// Notes about every axis.
 pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
@@ -22,6 +24,7 @@ pub(super) fn check(machine: &Machine, diagnostics: &mut Vec<Diagnostic>) {
         weight(axis, diagnostics);
         settling_time(axis, diagnostics);
         window(axis, diagnostics);
+        lag_monitor(axis, diagnostics);
         gantry(axis, machine, diagnostics);
         unused_mode(axis, diagnostics);
     }
@@ -108,6 +111,27 @@ fn window(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
         let what = format!("exact-stop window {window}, lag at standstill up to {lag} (dead band)");
         let advice = format!("at least {WINDOW_LAGS} times the lag is recommended");
         diagnostics.push(issues::about(axis, Condition::ListAdvice, param, &what, &advice));
+    }
+}
+
+/// The standard monitor estimates the lag with a filter and keeps the estimate between two limits.
+///
+/// Source: P-AXIS-00167 to P-AXIS-00169 (TF5200 axis parameters).
+fn lag_monitor(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
+    let mut note = |param: Param<Number>, what: &str, advice: &str| {
+        diagnostics.push(issues::about(axis, Condition::ListAdvice, param, what, advice));
+    };
+    let standard = axis.get(axis_control::LAG_MONITOR) == 1;
+    let dynamics = axis.listed(axis_control::LAG_DYNAMICS);
+    if standard && dynamics < LAG_DYNAMICS_MIN {
+        let what = format!("filter constant {dynamics} of the standard lag monitor");
+        let advice = format!("its range is {LAG_DYNAMICS_MIN} to 1024");
+        note(axis_control::LAG_DYNAMICS, &what, &advice);
+    }
+    let [least, most] = [axis_control::LAG_MIN, axis_control::LAG_MAX].map(|p| axis.listed(p));
+    if standard && most < least {
+        let what = format!("maximum lag {most} below the limit at standstill {least}");
+        note(axis_control::LAG_MAX, &what, "the limit at standstill applies at every speed");
     }
 }
 
