@@ -55,6 +55,7 @@ pub mod profile;
 pub mod queue;
 pub mod realtime;
 mod ride;
+mod sections;
 pub mod spline;
 mod timeline;
 pub mod tolerance;

@@ -21,11 +21,12 @@ use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::path::{Ball, Path};
 use crate::profile::SlopeLimits;
 use crate::realtime::Override;
+use crate::sections::joined;
 use kontur_filters::time::CycleTime;
 use smallvec::{SmallVec, smallvec};
 use std::sync::Arc;
 
-/// Share of the time that two stretches of a block have to save to be planned separately.
+/// Share of the time that a stretch planned separately has to save.
 const WORTH: f64 = 0.1;
 
 /// A stretch of a block with its curvature and speed.
@@ -222,29 +223,18 @@ impl Queued {
         self: &Arc<Self>,
         stretches: impl IntoIterator<Item = Stretch>,
     ) -> Vec<Arc<Self>> {
-        // neighbours stay together as long as their common speed costs little; each group keeps the time of its
-        // stretches at their separate speeds, so that a gradually increasing curvature does not end up in one group
-        let mut groups: Vec<(f64, Stretch)> = Vec::new();
-        let mut least_s: Vec<f64> = Vec::new();
+        let stretches: Vec<Stretch> = stretches.into_iter().collect();
         let mut from = 0.0;
-        for stretch in stretches {
-            let end = stretch.end;
-            let mut apart = (end - from) / stretch.speed;
-            let mut group = (from, stretch);
-            while let (Some(&(start, before)), Some(&least)) = (groups.last(), least_s.last()) {
-                let both = before.and(&group.1);
-                if (both.end - start) / both.speed > (1.0 + WORTH) * (least + apart) {
-                    break;
-                }
-                group = (start, both);
-                apart += least;
-                groups.pop();
-                least_s.pop();
-            }
-            groups.push(group);
-            least_s.push(apart);
-            from = end;
-        }
+        let groups = joined(stretches.iter().map(|stretch| (stretch.end, stretch.speed)), WORTH);
+        let groups: Vec<(f64, Stretch)> = groups
+            .into_iter()
+            .filter_map(|range| {
+                let start = from;
+                let both = stretches[range].iter().copied().reduce(|a, b| a.and(&b))?;
+                from = both.end;
+                Some((start, both))
+            })
+            .collect();
         let last = groups.len().saturating_sub(1);
         let part = |(i, (from, stretch)): (usize, (f64, Stretch))| {
             let rest = self.remainder(from);

@@ -4,7 +4,7 @@
 //! Feed override (P-AXIS-00491) and feedhold (P-AXIS-00540) of the channel act on them, unless the list assigns these
 //! to the interface of the axis, which has no inputs here. Assumption: the weights of G130 to G133 do not apply to
 //! them; an error stops them, and a feedhold holds them, with their normal deceleration, whatever P-CHAN-00097 says: the default
-//! of P-AXIS-00556 is that deceleration, and the stored page (358850187) does not say how P-CHAN-00097 changes it. Rests of
+//! of P-AXIS-00556 is that deceleration, and its page (358850187) does not say how P-CHAN-00097 changes it. Rests of
 //! oscillations continue.
 
 use crate::exec::{IndependentMotion, OscillatingMotion, SourceRef};

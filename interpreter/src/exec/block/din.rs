@@ -175,6 +175,7 @@ impl Decoder {
                 if taps {
                     // the S word is modal: it counts for M3 after the thread, the sign is that of the thread
                     self.motion.spindles[0].rpm = speed.abs();
+                    self.motion.spindles[0].check_speed(&self.machine, &mut self.report, *span);
                 }
             }
             if *i != 0 {
