@@ -69,6 +69,8 @@ pub(super) struct ShapingState {
     /// `None`: as defined by the axis lists.
     pub(super) guard_on: Option<bool>,
     pub(super) guard: GuardKeys,
+    /// Whether the guards of the lists have had their own values since an axis exchange.
+    exchanged: bool,
     pub(super) fir_on: Option<bool>,
     pub(super) fir: FilterKeys,
     pub(super) hsc_on: bool,
@@ -115,10 +117,33 @@ impl ShapingState {
         named.or(self.forced.and_then(|f| f.ax_dev_mm)).filter(|mm| *mm > 0.0)
     }
 
+    /// The keys of the program that act now.
+    pub(super) fn guard_in_force(&self) -> GuardKeys {
+        if self.exchanged { GuardKeys::default() } else { self.guard }
+    }
+
+    /// A command of the program for the guard.
+    pub(super) fn command_guard(&mut self, keys: GuardKeys, on: Option<bool>) {
+        (self.guard, self.exchanged) = (keys, false);
+        self.guard_on = on.or(self.guard_on);
+    }
+
+    /// An axis exchange: a guard of the program is switched off, those of the lists continue with their own values (TF5250,
+    /// axis exchange commands). The keys of the program stay for its next command. False if nothing changes.
+    pub(super) fn exchange_axes(&mut self) -> bool {
+        let changes =
+            self.guard_on.take().is_some() || self.guard_in_force() != GuardKeys::default();
+        self.exchanged = true;
+        if changes {
+            self.ax_dev_mm = None;
+        }
+        changes
+    }
+
     /// Settings of the guard, from the list and the program.
     fn guard_settings(&self, listed: VibGuardSettings) -> VibGuardSettings {
         let forced = self.forced.and_then(|f| f.settings);
-        forced.unwrap_or_else(|| self.guard.over(listed))
+        forced.unwrap_or_else(|| self.guard_in_force().over(listed))
     }
 
     /// The command of the program because of which a changed list acts neither now nor later: every value that has changed is
@@ -130,7 +155,7 @@ impl ShapingState {
     ) -> Option<&'static str> {
         let guard = |listed: &KernelPreset| {
             let on = self.guard_on.unwrap_or(listed.vib_guard.active);
-            (on, self.guard.over(listed.vib_guard.settings))
+            (on, self.guard_in_force().over(listed.vib_guard.settings))
         };
         let fir = |listed: &KernelPreset| {
             listed.fir.map(|fir| (self.fir_on.unwrap_or(fir.enable), self.fir(fir.config)))

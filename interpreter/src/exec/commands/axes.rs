@@ -9,6 +9,7 @@ mod members;
 mod taken;
 
 use super::row::{Call, Row};
+use super::shaping;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::choice::Compensation;
 use crate::exec::decoder::Decoder;
@@ -217,15 +218,18 @@ fn may_exchange(decoder: &Decoder, span: Span) -> Outcome<()> {
 fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
     may_exchange(decoder, span)?;
     decoder.sync(Sync::FlushWait);
-    if decoder.shaping.guard_on == Some(true) {
-        let text = "the axis exchange switches the Vibration Guard of the program off";
-        let hint = "program #VIB GUARD ON again after it";
-        decoder.report.note(Fault::new(Condition::GuardExchanged, text, span).hint(hint));
-    }
-    if decoder.shaping.guard_on.take().is_some() {
-        decoder.shaping.ax_dev_mm = None;
-        // the list applies again, with its values
-        decoder.shaping.guard = crate::exec::shaping::GuardKeys::default();
+    let (was_on, programmed) = (shaping::guard_is_on(decoder), decoder.shaping.guard_on);
+    if decoder.shaping.exchange_axes() {
+        if was_on {
+            let text = match programmed {
+                Some(_) => "the axis exchange switches the Vibration Guard of the program off",
+                None => {
+                    "after the axis exchange the Vibration Guard has the values of the axis lists"
+                }
+            };
+            let hint = "program #VIB GUARD ON again after it";
+            decoder.report.note(Fault::new(Condition::GuardExchanged, text, span).hint(hint));
+        }
         decoder.update_shaping(span);
     }
     Ok(())

@@ -131,8 +131,7 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     programmed.freq_hz = keys.freq.map(|(x, _)| x).or(programmed.freq_hz);
     programmed.damping = keys.damping.map(|(x, _)| x).or(programmed.damping);
     tolerances(decoder, Family::VibGuard, keys.ax_dev, keys.acc_fact);
-    decoder.shaping.guard = programmed;
-    decoder.shaping.guard_on = call.command.on.or(decoder.shaping.guard_on);
+    decoder.shaping.command_guard(programmed, call.command.on);
     // OFF without a bracket has no settings to store
     let given = call.command.groups.first().is_some_and(|group| !group.items.is_empty());
     let stores = given || call.command.on.is_none();
@@ -144,7 +143,7 @@ fn vib_guard(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 }
 
 /// Whether the guard of any axis is on, by program or list.
-fn guard_is_on(decoder: &Decoder) -> bool {
+pub(super) fn guard_is_on(decoder: &Decoder) -> bool {
     let cycle = decoder.machine.cycle;
     let listed = |axis| decoder.shaping.listed(axis, cycle).vib_guard.active;
     decoder.shaping.guard_on.unwrap_or_else(|| decoder.machine.axes.iter().any(listed))

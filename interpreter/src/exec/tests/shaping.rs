@@ -38,6 +38,24 @@ fn keys_persist_but_the_tolerance_does_not() {
     assert!(setups[1].kernel.is_none());
 }
 
+/// The values of the program stay for its next command; those of the lists act until then (TF5250, axis exchange commands).
+#[test]
+fn keys_outlast_an_axis_exchange() {
+    let off = "G90 F100\n#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.02]\nX1\n#PUT AX [Z]\nX2\n#VIB GUARD ON\nX3";
+    let run = on(off, &[]);
+    let setups_off = setups(&run);
+    assert_eq!(setups_off.len(), 3);
+    assert!(setups_off[1].kernel.is_none());
+    assert_eq!(guard(setups_off[2]), (2, 20.0, 0.1));
+    let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
+    assert_eq!(tolerances, [Some(0.02), None, None]);
+    let listed = ["X,Y,Z.vib_guard.active=1", "X,Y,Z.vib_guard.mode=3", "X,Y,Z.vib_guard.freq=50"];
+    let run = on("G90 F100\n#VIB GUARD [FREQ=20]\nX1\n#PUT AX [Z]\nX2\n#VIB GUARD\nX3", &listed);
+    let frequencies: Vec<_> = setups(&run).iter().map(|setup| guard(setup)).collect();
+    assert_eq!(frequencies, [(3, 20.0, 0.1), (3, 50.0, 0.1), (3, 20.0, 0.1)]);
+    assert!(run.diagnostics.iter().any(|d| d.id.to_string() == "K-0102"));
+}
+
 #[test]
 fn values_out_of_range() {
     let id = |text: &str| run(&format!("#VIB GUARD ON [{text}]\nM30\n"));
