@@ -88,3 +88,27 @@ pub(crate) fn entered(plan: &[Entry], cycle: CycleTime) -> Vec<f64> {
     let blocks = plan.iter().flat_map(|e| e.entries(cycle)).map(|(cycles, ..)| cycles);
     blocks.chain(plan.last().map(|e| e.end.cycles(cycle))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kontur_kit::near;
+
+    /// Four blocks of 100 cycles each, which take 110, 130, 150 and 120 cycles in the other plan.
+    #[test]
+    fn only_next_to_large_excesses_is_lost_time_necessary() {
+        let entered = vec![0.0, 100.0, 200.0, 300.0, 400.0];
+        let slower = [0.0, 110.0, 240.0, 390.0, 510.0];
+        let lost = |excess: f64, beside: (f64, f64)| {
+            let answered = Answered { cycles: vec![150], excess, entered: entered.clone() };
+            answered.lost(&slower, beside)
+        };
+        let all = 10.0 + 30.0 + 50.0 + 20.0;
+        near(lost(0.5, (20.0, 20.0)), all, 1e-9);
+        near(lost(5.0, (20.0, 20.0)), all - 30.0, 1e-9);
+        near(lost(5.0, (60.0, 20.0)), all - 10.0 - 30.0, 1e-9);
+        near(lost(5.0, (20.0, 60.0)), all - 30.0 - 50.0, 1e-9);
+        let parts = Answered { cycles: vec![150], excess: 5.0, entered: entered[1..].to_vec() };
+        assert!(parts.lost(&slower, (20.0, 20.0)).is_infinite());
+    }
+}
