@@ -86,6 +86,7 @@
 //! assert!(seconds(Some(0.001)) > seconds(None));
 //! ```
 
+mod answered;
 mod blame;
 mod bound;
 mod demands;
@@ -111,6 +112,7 @@ use crate::contour::Contour;
 use crate::deviation::Unkept;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Timeline};
+pub(crate) use answered::entered;
 pub(crate) use demands::Demands;
 pub use kernels::Kernels;
 use kontur_filters::time::CycleTime;

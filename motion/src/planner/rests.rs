@@ -15,7 +15,7 @@ use super::extend::Searched;
 use crate::cap::SpeedLimit;
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
-use crate::tolerance::Demands;
+use crate::tolerance::{Demands, entered};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -72,8 +72,11 @@ impl Planner {
         kept: Vec<Entry>,
     ) -> Vec<Entry> {
         let end = kept.last().map_or(0.0, |e| e.end.cycles(self.cycle));
-        let takes = end - self.plan.start.moment.cycles(self.cycle);
-        if !self.plan.demands.answer_few(FEW, takes, &self.kernels) {
+        let brakes = |q: &Arc<Queued>| q.slope.down_time(q.velocity.v_mm_s, 0.0);
+        let brakes = window.iter().map(brakes).fold(0.0, f64::max) / self.cycle.seconds();
+        let times = entered(&kept, self.cycle);
+        let lost = self.plan.demands.answer_few(FEW, &times, brakes, &self.kernels);
+        if lost.is_none_or(|cycles| cycles <= WORTH) {
             return kept;
         }
         let before = std::mem::replace(&mut self.plan.demands, asked.clone());
@@ -129,14 +132,8 @@ impl Planner {
     /// has left the filters, and at its end; negative for a loss.
     fn gains(&self, plan: &[Entry]) -> Vec<f64> {
         let (cycle, wait) = (self.cycle, f64::from(self.kernels.length()));
-        let mut entered: Vec<f64> = Vec::new();
-        let mut blocks: Vec<&Queued> = Vec::new();
-        for (cycles, _, queued) in plan.iter().flat_map(|e| e.entries(cycle)) {
-            entered.push(cycles);
-            blocks.push(queued);
-        }
-        entered.extend(plan.last().map(|e| e.end.cycles(cycle)));
-        let gain = |(queued, at): (&&Queued, &[f64])| {
+        let blocks = plan.iter().flat_map(|e| &e.blocks);
+        let gain = |((queued, _), at): (&(Arc<Queued>, f64), &[f64])| {
             let takes = at[1] - at[0];
             let speed = queued.velocity.v_mm_s;
             let least = wait + queued.length / speed / cycle.seconds();
@@ -146,7 +143,7 @@ impl Planner {
             let rested = queued.slope.plan(0.0, 0.0, speed, queued.length);
             rested.map_or(0.0, |p| takes - wait - p.duration() / cycle.seconds())
         };
-        blocks.iter().zip(entered.windows(2)).map(gain).collect()
+        blocks.zip(entered(plan, cycle).windows(2)).map(gain).collect()
     }
 }
 

@@ -1,5 +1,6 @@
 //! The demands of the tolerance on the plan.
 
+use super::answered::Answered;
 use super::dwell::Shorter;
 use super::kernels::Kernels;
 use super::places::Places;
@@ -40,9 +41,8 @@ pub(crate) struct Demands {
     pub(super) tried: Vec<Option<f64>>,
     /// First boundary without a known even speed, see [`super::even::foresee`].
     pub(super) foreseen: usize,
-    /// Number of excesses of the plan for which even speeds were demanded, at most one of each direction per half
-    /// kernel.
-    pub(super) answered: usize,
+    /// The plan for whose excesses even speeds were demanded.
+    pub(super) answered: Option<Answered>,
     /// Where the last plan exceeded the tolerance.
     pub(super) places: Places,
 }
@@ -58,7 +58,7 @@ impl Default for Demands {
             slower: Vec::new(),
             tried: vec![None],
             foreseen: 0,
-            answered: 0,
+            answered: None,
             places: Places::default(),
         }
     }
@@ -133,10 +133,22 @@ impl Demands {
         }
     }
 
-    /// Whether even speeds have been demanded because of excesses in at most a share of some cycles.
-    pub(crate) fn answer_few(&mut self, share: f64, cycles: f64, kernels: &Kernels) -> bool {
-        let answered = std::mem::take(&mut self.answered) as f64;
-        answered > 0.0 && 0.5 * answered * f64::from(kernels.length()) <= share * cycles
+    /// Number of cycles that a plan, given by the times at which it enters its blocks, has lost for nothing against the
+    /// plan for whose excesses even speeds have been demanded, see [`Answered::lost`]; the path can brake within
+    /// `brakes` cycles. `None` if there were no such excesses, or in more than a share of the plan.
+    pub(crate) fn answer_few(
+        &mut self,
+        share: f64,
+        plan: &[f64],
+        brakes: f64,
+        kernels: &Kernels,
+    ) -> Option<f64> {
+        let answered = self.answered.take().filter(|a| a.count() > 0)?;
+        let (first, last) = (plan.first()?, plan.last()?);
+        let reach = f64::from(kernels.length());
+        let few = 0.5 * answered.count() as f64 * reach <= share * (last - first);
+        let beside = (1.5 * reach + brakes, 0.5 * reach + brakes);
+        few.then(|| answered.lost(plan, beside))
     }
 
     /// Whether these demands and others lead to the same plan.

@@ -1,5 +1,6 @@
 //! The examination of a plan: changes are measured, and excesses answered.
 
+use super::answered::{Answered, Exceeded};
 use super::demands::Demands;
 use super::even::{foresee, foresees};
 use super::findings::Findings;
@@ -47,7 +48,7 @@ impl Monitor {
                 return (Verdict::Kept, found.seen(trial));
             }
             if trial.foresee(demands) {
-                demands.answered = found.exceeded.len();
+                demands.answered = Some(found.answered(trial));
                 return (Verdict::Tightened, found.seen(trial));
             }
         }
@@ -74,7 +75,7 @@ impl Monitor {
             return (Verdict::GivenUp(worst), seen);
         }
         if round == 0 && trial.foresee(demands) {
-            demands.answered = found.exceeded.len();
+            demands.answered = Some(found.answered(trial));
         } else {
             view.tighten(&findings, all, demands);
         }
@@ -100,27 +101,32 @@ enum Depth {
 /// The excesses of a plan.
 struct Found {
     worst: Option<Unkept>,
-    /// Cycles of the violations, and whether a point is missed there: at most one of each kind per half kernel.
-    exceeded: Vec<(u64, bool)>,
+    /// The violations: at most one of each kind per half kernel.
+    exceeded: Vec<Exceeded>,
     /// Runs of set points that the bound does not exclude.
     suspects: Vec<(u64, u64)>,
     depth: Depth,
 }
 
 impl Found {
+    /// The plan with its excesses.
+    fn answered(&self, trial: &Trial<'_>) -> Answered {
+        Answered::new(self.exceeded.iter(), trial.plan, trial.cycle)
+    }
+
     /// What is known of every entry of the plan.
     fn seen(&self, trial: &Trial<'_>) -> Vec<Seen> {
         let length = f64::from(trial.kernels.length());
         let beside = 0.5 * length + BORDER_CYCLES + 3.0;
         let seen = trial.plan.iter().map(|e| {
             let [from, to] = [e.start, e.end].map(|m| m.cycles(trial.cycle));
-            let near = |(k, missed): &(u64, bool)| {
-                let (before, behind) = if *missed {
+            let near = |at: &Exceeded| {
+                let (before, behind) = if at.missed {
                     (2.0 * length + 4.0, 2.0 * length + 4.0)
                 } else {
                     (beside, length + beside)
                 };
-                (from - before..=to + behind).contains(&(*k as f64))
+                (from - before..=to + behind).contains(&(at.cycle as f64))
             };
             if self.exceeded.iter().any(near) {
                 return Seen::Nothing;
@@ -155,7 +161,7 @@ impl View<'_> {
     ) -> Found {
         let mut exceeded = Vec::new();
         let mut found = |v: &Violation, record: &Record| {
-            exceeded.push((v.cycle, v.missed.is_some()));
+            exceeded.push(Exceeded::of(v));
             found(v, record);
         };
         let trial = self.trial;
