@@ -167,7 +167,7 @@ pub(crate) fn plan_again(
     Ok(draft)
 }
 
-impl<'a> Window<'a> {
+impl Window<'_> {
     /// Plans the window; `known` are spans planned earlier under the same limits, in order.
     fn plan(&self, mut known: Vec<Span>) -> Result<Vec<Span>, Infeasible> {
         let n = self.blocks.len();

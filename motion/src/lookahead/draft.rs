@@ -25,7 +25,7 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// Keeps the spans whose limits do not change inside with a window and its limits, and takes them over.
+    /// Takes over a window with its limits, and keeps the spans whose limits stay the same inside.
     pub(super) fn follow(
         &mut self,
         a_start: f64,

@@ -73,8 +73,7 @@ impl Window<'_> {
     pub(super) fn only_divides(&self, b: usize) -> bool {
         let feed = self.feeds[b].v_mm_s;
         // between the lines of a contour the acceleration differs most often, so it is asked for first
-        self.blocks[b].same_rates
-            && self.blocks[b].same_slope
+        self.blocks[b].same_rates()
             && !self.forced[b]
             && !self.carried[b]
             && !is_above(feed, self.limits[b].v_mm_s)
@@ -120,7 +119,7 @@ impl Window<'_> {
             let drops = is_above(self.entries[i].v_mm_s, feeds[i].v_mm_s);
             let joined = self.carried[i]
                 || !self.forced[i]
-                    && b.same_slope
+                    && b.same_slope()
                     && if a.plans_across && !plain[i - 1] {
                         caps[i].v_mm_s > 0.0 && !drops
                     } else {

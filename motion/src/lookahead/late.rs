@@ -116,7 +116,7 @@ impl Window<'_> {
         let (from, to) = (&self.blocks[b - 1], &self.blocks[b]);
         !self.forced[b]
             && self.feeds[b].v_mm_s <= self.feeds[b - 1].v_mm_s.min(self.caps[b].v_mm_s)
-            && to.same_slope
+            && to.same_slope()
             && from.queued.brakes_late_into(&to.queued)
     }
 

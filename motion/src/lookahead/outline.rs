@@ -21,25 +21,53 @@ pub(super) struct Outline {
     pub(super) plans_across: bool,
     /// See [`Queued::may_brake_late`].
     pub(super) may_brake_late: bool,
-    /// Whether the slope is programmed as in the block before.
-    pub(super) same_slope: bool,
-    /// Whether its rates are those of the block before, up to rounding.
-    pub(super) same_rates: bool,
+    likeness: Likeness,
+}
+
+/// What the slope of a block has in common with that of the block before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Likeness {
+    Nothing,
+    /// How it is programmed.
+    Programmed,
+    /// Its rates as well, up to rounding.
+    Rates,
+}
+
+impl Likeness {
+    fn of(queued: &Queued, before: &Queued) -> Self {
+        let same = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs();
+        if queued.block.slope != before.block.slope {
+            Self::Nothing
+        } else if before.slope.has_same_rates(&queued.slope, same) {
+            Self::Rates
+        } else {
+            Self::Programmed
+        }
+    }
 }
 
 impl Outline {
     fn of(queued: &Arc<Queued>, before: Option<&Arc<Queued>>) -> Self {
         let length = queued.length;
-        let same = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs();
         Self {
             length,
             gain: rates(queued).map(|r| (2.0 * length * r.acc, 2.0 * length * r.dec)),
             plans_across: queued.plans_across(),
             may_brake_late: queued.may_brake_late(),
-            same_slope: before.is_some_and(|b| b.block.slope == queued.block.slope),
-            same_rates: before.is_some_and(|b| b.slope.has_same_rates(&queued.slope, same)),
+            likeness: before.map_or(Likeness::Nothing, |before| Likeness::of(queued, before)),
             queued: Arc::clone(queued),
         }
+    }
+
+    /// Whether the slope is programmed as in the block before.
+    pub(super) fn same_slope(&self) -> bool {
+        self.likeness >= Likeness::Programmed
+    }
+
+    /// Whether the rates are also those of the block before, up to rounding.
+    pub(super) fn same_rates(&self) -> bool {
+        self.likeness == Likeness::Rates
     }
 }
 

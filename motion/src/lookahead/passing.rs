@@ -109,7 +109,7 @@ impl Window<'_> {
             && cap.why != SpeedLimit::AxDev
             && !self.forced[b]
             && before.plans_across
-            && behind.same_slope
+            && behind.same_slope()
             && !late(b - 1)
             && !late(b)
             && behind.queued.block.slope.kind == SlopeKind::Hsc
