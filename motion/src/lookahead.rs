@@ -43,6 +43,7 @@
 mod draft;
 mod knots;
 mod late;
+mod outline;
 mod passing;
 mod stretch;
 
@@ -52,8 +53,9 @@ use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
 use crate::ride::{Cell, connects_gently, jerk_steps, ride};
 pub(crate) use draft::Draft;
+use outline::Outline;
 use std::sync::Arc;
-use stretch::{Stretch, Weakest, cells, most_exceeded};
+use stretch::{Stretch, cells, most_exceeded};
 
 /// Relative difference of speeds that counts as rounding.
 pub(crate) const ROUNDING: f64 = 1e-7;
@@ -75,11 +77,20 @@ pub struct Span {
     asked: (f64, f64),
 }
 
+impl Span {
+    /// Whether it was planned along this stretch between these speeds.
+    fn is_of(&self, s: &Stretch<'_>, (v0, v1): (f64, f64)) -> bool {
+        (self.first, self.end) == (s.first, s.end)
+            && self.asked.0.to_bits() == v0.to_bits()
+            && self.asked.1.to_bits() == v1.to_bits()
+    }
+}
+
 /// Input of a plan: blocks with the limits of each of them and of each boundary. Entry `i` of `caps`, `forced`,
-/// `entries` and `carried` belongs to the boundary before block `i`.
-#[derive(Clone, Debug)]
+/// `entries`, `limits` and `carried` belongs to the boundary before block `i`.
+#[derive(Clone, Copy, Debug)]
 struct Window<'a> {
-    blocks: &'a [Arc<Queued>],
+    blocks: &'a [Outline],
     feeds: &'a [Cap],
     caps: &'a [Cap],
     forced: &'a [bool],
@@ -88,9 +99,19 @@ struct Window<'a> {
     /// Speed at the end.
     end: Cap,
     /// Speed at which a block may be entered: its feed rate, or more under G901.
-    entries: Vec<Cap>,
+    entries: &'a [Cap],
+    /// Lowest of the cap, the feed rate of the block before, and the speed at which the block may be entered; not used
+    /// for the first block.
+    limits: &'a [Cap],
     /// Whether braking under G901 continues across the boundary.
-    carried: Vec<bool>,
+    carried: &'a [bool],
+}
+
+/// The limits of a [`Window`].
+fn limits(feeds: &[Cap], caps: &[Cap], entries: &[Cap]) -> Vec<Cap> {
+    let inside = caps[1..].iter().zip(feeds).zip(&entries[1..]);
+    let lowest = inside.map(|((cap, before), entry)| cap.lower(*before).lower(*entry));
+    caps[..1].iter().copied().chain(lowest).collect()
 }
 
 /// Plans a window of blocks from `v_start` to rest, in spans that cover every block. A non-zero acceleration at the
@@ -108,7 +129,8 @@ pub fn plan(
     (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
 ) -> Result<Vec<Span>, Infeasible> {
-    Ok(plan_again(blocks, (feeds, caps), forced, (v_start, a_start), end, None)?.spans)
+    let start = (v_start, a_start);
+    Ok(plan_again(blocks, (feeds, caps), forced, start, end, Draft::default())?.spans)
 }
 
 /// As [`plan`], reusing a draft of the same blocks, or of blocks of which the first ones are already before the start
@@ -119,48 +141,45 @@ pub(crate) fn plan_again(
     forced: &[bool],
     (v_start, a_start): (Cap, f64),
     end: SpeedLimit,
-    before: Option<Draft>,
+    mut draft: Draft,
 ) -> Result<Draft, Infeasible> {
-    let known = before.as_ref().map(|draft| draft.left(a_start, blocks, (feeds, caps)));
-    let known = known.unwrap_or_default();
     if blocks.is_empty() {
         return Ok(Draft::default());
     }
-    let (entries, carried) = (feeds.to_vec(), vec![false; blocks.len()]);
-    let end = Cap::new(0.0, end);
+    draft.follow(a_start, blocks, (feeds, caps));
+    let known = std::mem::take(&mut draft.spans);
+    let blocks = draft.blocks();
     // where a plan was left inside a span, its speed was computed by other formulas
     let rounded = !is_above(v_start.v_mm_s, feeds[0].v_mm_s) && a_start.abs() > FLAT_MM_S2;
     let v_start =
         if rounded { v_start.lower(Cap { v_mm_s: feeds[0].v_mm_s, ..v_start }) } else { v_start };
-    let early = Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, carried };
+    let (end, entries) = (Cap::new(0.0, end), feeds);
+    let (limits, carried) = (&limits(feeds, caps, entries)[..], &vec![false; blocks.len()][..]);
+    let early =
+        Window { blocks, feeds, caps, forced, v_start, a_start, end, entries, limits, carried };
     // braking under G901 concerns the whole window
     if let Some(entries) = late::entries(blocks, feeds) {
-        return Ok(Draft::of_spans(late::plan(&early, entries)?));
+        return Ok(Draft::of_spans(late::plan(&early, &entries)?));
     }
     let spans = early.plan(known)?;
     let passing = early.pass(&spans);
-    Ok(Draft::new(spans, passing, a_start, blocks, (feeds, caps), before.unwrap_or_default()))
+    draft.keep(spans, passing);
+    Ok(draft)
 }
 
-impl<'a> Window<'a> {
-    /// Cap of the boundary before block `b`.
-    fn limit(&self, b: usize) -> Cap {
-        self.caps[b].lower(self.feeds[b - 1]).lower(self.entries[b])
-    }
-
+impl Window<'_> {
     /// Plans the window; `known` are spans planned earlier under the same limits, in order.
     fn plan(&self, mut known: Vec<Span>) -> Result<Vec<Span>, Infeasible> {
-        let Self { blocks, feeds, caps, .. } = *self;
-        let n = blocks.len();
+        let n = self.blocks.len();
         let mut knot = vec![false; n + 1];
         (knot[0], knot[n]) = (true, true);
         let plain = self.mark_knots(&mut knot);
         let mut soft = self.minima(&knot, &plain);
+        let mut stretches = self.stretches(|b| knot[b] || soft[b]);
         loop {
-            let all: Vec<bool> = knot.iter().zip(&soft).map(|(k, s)| *k || *s).collect();
-            let stretches = self.stretches(&all);
             let speeds = self.passes(&stretches);
             if self.drop_lowered(&stretches, &speeds, &knot, &mut soft) {
+                self.join_dropped(&mut stretches, |b| knot[b] || soft[b]);
                 continue;
             }
             let mut spans: Vec<Span> = Vec::with_capacity(stretches.len());
@@ -170,110 +189,92 @@ impl<'a> Window<'a> {
                 let (length_mm, needed_mm) = (stretches[0].length, f64::INFINITY);
                 return Err(Infeasible { length_mm, needed_mm });
             }
-            for (k, s) in stretches.iter().enumerate() {
-                let (from, to) = (speeds[k], speeds[k + 1]);
+            let mut next = 0;
+            for (s, ends) in stretches.iter().zip(speeds.windows(2)) {
+                let (from, to) = (ends[0], ends[1]);
                 let asked = (from.v_mm_s, to.v_mm_s);
-                if let Some(same) = unchanged(&known, s, asked) {
-                    spans.push(Span { why_up: from.why, why_down: to.why, ..same });
+                next += known[next..].iter().take_while(|span| span.first < s.first).count();
+                if let Some(same) = known.get(next).filter(|span| span.is_of(s, asked)) {
+                    spans.push(Span { why_up: from.why, why_down: to.why, ..same.clone() });
                     continue;
                 }
                 #[cfg(test)]
                 crate::closed_forms::add();
-                let a0 = if k == 0 { self.a_start } else { 0.0 };
-                if a0.abs() > FLAT_MM_S2 {
-                    let going_on = cells(blocks, feeds, caps, s.first, s.end)
-                        .and_then(|cells| ride(&cells, (from.v_mm_s, a0), to.v_mm_s));
-                    let Some(profile) = going_on else {
-                        if s.end < blocks.len() && soft[s.end] && !knot[s.end] {
-                            soft[s.end] = false;
-                            again = true;
-                            spans = known;
-                            break;
-                        }
-                        return Err(Infeasible { length_mm: s.length, needed_mm: f64::INFINITY });
-                    };
-                    let (first, end) = (s.first, s.end);
-                    let (why_up, why_down) = (from.why, to.why);
+                let (first, end, why_up, why_down) = (s.first, s.end, from.why, to.why);
+                let continues = first == 0 && self.a_start.abs() > FLAT_MM_S2;
+                if let Some(v) = s.even_speed(asked).filter(|_| !continues) {
+                    let profile = Profile::even(v, s.length);
                     spans.push(Span { first, end, profile, why_up, why_down, asked });
                     continue;
                 }
-                let mut profile = s.profile(from.v_mm_s, to.v_mm_s)?;
-                let across = blocks[s.first..s.end].iter().any(|b| b.plans_across());
-                if s.end - s.first > 1 && across && !s.is_above(from.v_mm_s) {
-                    let worst = most_exceeded(blocks, feeds, caps, s, &profile);
-                    let divides = |b| self.only_divides(b);
-                    let mut steps = Vec::new();
-                    let along = |cells: Vec<Cell>| {
-                        let ride = ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s)?;
-                        steps = jerk_steps(&cells);
-                        let gentle =
-                            !steps.is_empty() || worst.is_some() && connects_gently(&cells);
-                        let slower = gentle
-                            && self.part(s, from, to).is_faster_with_knots(&steps, ride.duration());
-                        (!slower).then_some(ride)
-                    };
-                    let ridden = (worst.is_some() || s.is_uneven(blocks, divides, profile.peak()))
-                        .then(|| cells(blocks, feeds, caps, s.first, s.end))
-                        .flatten()
-                        .and_then(along);
-                    match (ridden, worst) {
-                        (Some(ride), None) if ride.duration() >= profile.duration() => {}
-                        (Some(ride), _) => profile = ride,
-                        (None, worst) => {
-                            let steps = steps.iter().map(|step| s.first + step);
-                            for b in steps.chain(worst) {
-                                (knot[b], again) = (true, true);
-                            }
+                let profile = if continues {
+                    let cells = cells(self.blocks, self.feeds, self.caps, s.first, s.end);
+                    let start = (from.v_mm_s, self.a_start);
+                    match cells.and_then(|cells| ride(&cells, start, to.v_mm_s)) {
+                        Some(profile) => profile,
+                        None if s.end < n && soft[s.end] && !knot[s.end] => {
+                            (soft[s.end], again) = (false, true);
+                            spans = known;
+                            break;
+                        }
+                        None => {
+                            let (length_mm, needed_mm) = (s.length, f64::INFINITY);
+                            return Err(Infeasible { length_mm, needed_mm });
                         }
                     }
-                }
-                spans.push(Span {
-                    first: s.first,
-                    end: s.end,
-                    profile,
-                    why_up: from.why,
-                    why_down: to.why,
-                    asked,
-                });
+                } else {
+                    let (profile, exceeded) = self.profile(s, from, to)?;
+                    for b in exceeded {
+                        (knot[b], again) = (true, true);
+                    }
+                    profile
+                };
+                spans.push(Span { first, end, profile, why_up, why_down, asked });
             }
             if !again {
                 return Ok(spans);
             }
             known = spans;
+            stretches = self.stretches(|b| knot[b] || soft[b]);
         }
     }
 
-    fn stretches(&self, knot: &[bool]) -> Vec<Stretch<'a>> {
-        let mut out = Vec::with_capacity(self.blocks.len());
-        let mut first = 0;
-        for (end, _) in knot.iter().enumerate().skip(1).filter(|(_, k)| **k) {
-            out.push(self.stretch(first, end));
-            first = end;
+    /// The profile of a stretch with zero acceleration at both ends, and the boundaries inside that have to become
+    /// knots because it exceeds their limits, or is slower without them.
+    fn profile(
+        &self,
+        s: &Stretch<'_>,
+        from: Cap,
+        to: Cap,
+    ) -> Result<(Profile, Vec<usize>), Infeasible> {
+        let Self { blocks, feeds, caps, .. } = *self;
+        let profile = s.profile(from.v_mm_s, to.v_mm_s)?;
+        let across = || blocks[s.first..s.end].iter().any(|b| b.plans_across);
+        if s.end - s.first == 1 || !across() || s.is_above(from.v_mm_s) {
+            return Ok((profile, Vec::new()));
         }
-        out
-    }
-
-    fn stretch(&self, first: usize, end: usize) -> Stretch<'a> {
-        let Self { blocks, feeds, .. } = *self;
-        let mut s = Stretch {
-            first,
-            end,
-            length: blocks[first].length,
-            feed: feeds[first].v_mm_s,
-            slope: Weakest::One(&blocks[first].slope),
+        let worst = most_exceeded(blocks, feeds, caps, s, &profile);
+        let divides = |b| self.only_divides(b);
+        let mut steps = Vec::new();
+        let along = |cells: Vec<Cell>| {
+            let ride = ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s)?;
+            steps = jerk_steps(&cells);
+            let gentle = !steps.is_empty() || worst.is_some() && connects_gently(&cells);
+            let slower =
+                gentle && self.part(s, from, to).is_faster_with_knots(&steps, ride.duration());
+            (!slower).then_some(ride)
         };
-        for i in first + 1..end {
-            s.length += blocks[i].length;
-            s.feed = if self.carried[i] {
-                // the speed at which the braking ends
-                feeds[i].v_mm_s
-            } else {
-                // across blocks of different feed rates the check finds the boundaries that are exceeded
-                s.feed.max(feeds[i].v_mm_s)
-            };
-            s.slope.join(&blocks[i].slope);
-        }
-        s
+        let ridden = (worst.is_some() || s.is_uneven(blocks, divides, profile.peak()))
+            .then(|| cells(blocks, feeds, caps, s.first, s.end))
+            .flatten()
+            .and_then(along);
+        Ok(match (ridden, worst) {
+            (Some(ride), None) if ride.duration() >= profile.duration() => (profile, Vec::new()),
+            (Some(ride), _) => (ride, Vec::new()),
+            (None, worst) => {
+                (profile, steps.iter().map(|step| s.first + step).chain(worst).collect())
+            }
+        })
     }
 
     /// A stretch as a separate window, between the speeds at its ends.
@@ -287,8 +288,9 @@ impl<'a> Window<'a> {
             v_start,
             a_start: 0.0,
             end,
-            entries: self.entries[blocks.clone()].to_vec(),
-            carried: self.carried[blocks].to_vec(),
+            entries: &self.entries[blocks.clone()],
+            limits: &self.limits[blocks.clone()],
+            carried: &self.carried[blocks],
         }
     }
 
@@ -301,7 +303,7 @@ impl<'a> Window<'a> {
             knot[*b] = true;
         }
         loop {
-            let stretches = self.stretches(&knot);
+            let stretches = self.stretches(|b| knot[b]);
             let speeds = self.passes(&stretches);
             let (mut time, mut exceeds) = (0.0, false);
             for (s, v) in stretches.iter().zip(speeds.windows(2)) {
@@ -327,9 +329,12 @@ impl<'a> Window<'a> {
         v[m] = self.end;
         for k in (1..m).rev() {
             let s = &stretches[k];
-            let best = self.limit(s.first);
+            let best = self.limits[s.first];
             let behind = v[k + 1];
-            v[k] = if s.slope.clearly_reaches_down(best.v_mm_s, behind.v_mm_s, s.length) {
+            // along a path at its feed rate there is nothing to reach
+            v[k] = if best.v_mm_s <= behind.v_mm_s
+                || s.slope.clearly_reaches_down(best.v_mm_s, behind.v_mm_s, s.length)
+            {
                 best
             } else {
                 best.lower(Cap::new(s.slope.reach_down(behind.v_mm_s, s.length), behind.why))
@@ -341,7 +346,9 @@ impl<'a> Window<'a> {
             let before = v[k - 1];
             let reach = if k == 1 {
                 s.reach_from(self.v_start.v_mm_s, self.a_start)
-            } else if s.slope.clearly_reaches_up(before.v_mm_s, v[k].v_mm_s, s.length) {
+            } else if v[k].v_mm_s <= before.v_mm_s
+                || s.slope.clearly_reaches_up(before.v_mm_s, v[k].v_mm_s, s.length)
+            {
                 continue;
             } else {
                 s.slope.reach_up(before.v_mm_s, s.length)
@@ -355,13 +362,4 @@ impl<'a> Window<'a> {
 /// Whether a speed exceeds a feed rate by more than rounding.
 fn is_above(v: f64, feed: f64) -> bool {
     v > feed * (1.0 + ROUNDING)
-}
-
-/// The span of the previous round, if neither its ends nor its speeds have changed.
-fn unchanged(known: &[Span], s: &Stretch<'_>, asked: (f64, f64)) -> Option<Span> {
-    let span = &known[known.binary_search_by_key(&s.first, |span| span.first).ok()?];
-    let same = span.end == s.end
-        && span.asked.0.to_bits() == asked.0.to_bits()
-        && span.asked.1.to_bits() == asked.1.to_bits();
-    same.then(|| span.clone())
 }

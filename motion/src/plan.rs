@@ -63,7 +63,7 @@ pub(crate) struct Plan {
     /// Remaining spans of the most recent plan, from the start to rest.
     pub(crate) reserve: VecDeque<Entry>,
     /// The most recent plan; most of it is reused in the next one.
-    draft: Option<Draft>,
+    draft: Draft,
 }
 
 impl Default for Plan {
@@ -82,7 +82,7 @@ impl Plan {
             start,
             demands: Demands::default(),
             reserve: VecDeque::new(),
-            draft: None,
+            draft: Draft::default(),
         }
     }
 
@@ -100,7 +100,7 @@ impl Plan {
     pub(crate) fn replace(&mut self, segments: Vec<Segment>) {
         self.demands = Demands::again(segments.iter().map(|s| s.asked.unwrap_or_default()));
         self.segments = segments.into();
-        self.draft = None;
+        self.draft = Draft::default();
         self.programmed = programmed(&self.segments);
     }
 
@@ -122,7 +122,9 @@ impl Plan {
     /// The blocks up to the first one with zero speed; the path ends before it.
     pub(crate) fn window(&self) -> Vec<Arc<Queued>> {
         let blocks = self.segments.iter().map(|s| &s.queued);
-        blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned().collect()
+        let mut window = Vec::with_capacity(self.segments.len());
+        window.extend(blocks.take_while(|q| q.velocity.v_mm_s > 0.0).cloned());
+        window
     }
 
     /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, and `end` is the reason why
@@ -159,8 +161,9 @@ impl Plan {
         let gentle = demands.soften(window);
         let from = (self.start.speed, self.start.a_mm_s2);
         let limits = (&feeds[..], &caps[..]);
-        let planned = plan_again(&gentle, limits, &forced, from, end, self.draft.take())?;
-        let spans = &self.draft.insert(planned).spans;
+        let draft = std::mem::take(&mut self.draft);
+        self.draft = plan_again(&gentle, limits, &forced, from, end, draft)?;
+        let spans = &self.draft.spans;
         // after a rest the start may have to wait until the corner before it has left the filters
         let mut at = match demands.stop[0] {
             Some(wait) => Moment::tick(start.next_tick(cycle) + u64::from(wait)),
@@ -199,9 +202,7 @@ impl Plan {
             .map(|(i, s)| Segment { asked: s.asked.or_else(|| demands.of(i)), ..s })
             .collect();
         self.demands.pass(count);
-        if let Some(draft) = &mut self.draft {
-            draft.pass(count);
-        }
+        self.draft.pass(count);
         self.programmed = programmed(&self.segments);
         final_ones
     }

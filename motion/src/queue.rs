@@ -179,8 +179,13 @@ impl Queued {
 
     /// Whether braking to the feed rate of the next block may begin in that block (G901).
     pub(crate) fn brakes_late_into(&self, next: &Self) -> bool {
-        let hsc = [self, next].iter().any(|q| q.block.slope.kind == SlopeKind::Hsc);
-        self.block.late_braking && self.block.feed != Feed::Rapid && !hsc
+        self.may_brake_late() && next.block.slope.kind != SlopeKind::Hsc
+    }
+
+    /// Whether this holds for some next block.
+    pub(crate) fn may_brake_late(&self) -> bool {
+        let Block { late_braking, feed, slope, .. } = &*self.block;
+        *late_braking && *feed != Feed::Rapid && slope.kind != SlopeKind::Hsc
     }
 
     /// Velocity in mm/s that the path never exceeds in this block after `before`, with any override.

@@ -132,6 +132,7 @@ impl PathState {
 }
 
 impl Entry {
+    #[inline]
     pub(crate) fn new(
         start: Moment,
         s0: f64,
@@ -145,6 +146,7 @@ impl Entry {
     }
 
     /// A profile along blocks; `why` are the reasons while accelerating and while braking.
+    #[inline]
     pub(crate) fn along(
         start: Moment,
         s0: f64,
@@ -153,14 +155,12 @@ impl Entry {
         blocks: &[Arc<Queued>],
         stops: bool,
     ) -> Self {
+        let mut ends: SmallVec<[(Arc<Queued>, f64); 1]> = SmallVec::with_capacity(blocks.len());
         let mut at = 0.0;
-        let blocks = blocks
-            .iter()
-            .map(|q| {
-                at += q.length;
-                (Arc::clone(q), at)
-            })
-            .collect();
+        for queued in blocks {
+            at += queued.length;
+            ends.push((Arc::clone(queued), at));
+        }
         Self {
             start,
             end: start.plus(profile.duration()),
@@ -168,7 +168,7 @@ impl Entry {
             profile,
             why_up: why.0,
             why_down: why.1,
-            blocks,
+            blocks: ends,
             feeds: SmallVec::new(),
             caps: SmallVec::new(),
             lows: SmallVec::new(),

@@ -35,11 +35,7 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
 /// cannot be predicted, then costs nothing.
 #[inline]
 fn decimal_in_word(word: [u8; 8]) -> Option<(f64, usize)> {
-    // the first byte is the lowest one
-    let values = u64::from_le_bytes(word) ^ (EACH_BYTE * u64::from(b'0'));
-    // the highest bit of each byte that is not a digit: the carry of no byte reaches the next one
-    let carried = (values & (EACH_BYTE * 0x7F)) + EACH_BYTE * 0x76;
-    let others = (values | carried) & (EACH_BYTE * 0x80);
+    let (values, others) = digits_of_word(word);
     let whole = others.trailing_zeros() / 8;
     let behind = others.checked_sub(1).map_or(0, |below| others & below).trailing_zeros() / 8;
     let is_point = word.get(whole as usize) == Some(&b'.');
@@ -48,19 +44,43 @@ fn decimal_in_word(word: [u8; 8]) -> Option<(f64, usize)> {
     // without the point, and with zeros before the first digit
     let before_point = values & !(u64::MAX << (8 * whole));
     let behind_point = (values >> 8) & (u64::MAX << (8 * whole));
-    let mut digits = (before_point | behind_point) << (8 * (8 - count));
+    let mantissa = number_of_digits(before_point | behind_point, count);
+    let decimals = count - whole;
+    Some((mantissa as f64 / POWERS[decimals as usize], behind as usize))
+}
+
+/// The same for the digits of an integer, without what follows them.
+#[inline]
+pub(super) fn integer_in_word(word: [u8; 8]) -> Option<(u64, usize)> {
+    let (values, others) = digits_of_word(word);
+    let count = others.trailing_zeros() / 8;
+    // one that goes up to the end may continue behind it
+    (1..8).contains(&count).then(|| (number_of_digits(values, count), count as usize))
+}
+
+/// The bytes of a word, the first one lowest, as digits, and the highest bit of each that is none.
+#[inline]
+fn digits_of_word(word: [u8; 8]) -> (u64, u64) {
+    let values = u64::from_le_bytes(word) ^ (EACH_BYTE * u64::from(b'0'));
+    // the carry of no byte reaches the next one
+    let carried = (values & (EACH_BYTE * 0x7F)) + EACH_BYTE * 0x76;
+    (values, (values | carried) & (EACH_BYTE * 0x80))
+}
+
+/// The number that the lowest `count` (1 to 8) bytes are the digits of, the most significant one first.
+#[inline]
+fn number_of_digits(bytes: u64, count: u32) -> u64 {
+    let mut digits = bytes << (8 * (8 - count));
     // two, four and eight digits at a time
     digits = (digits * 10 + (digits >> 8)) & 0x00FF_00FF_00FF_00FF;
     digits = (digits * 100 + (digits >> 16)) & 0x0000_FFFF_0000_FFFF;
-    digits = (digits * 10_000 + (digits >> 32)) & 0xFFFF_FFFF;
-    let decimals = count - whole;
-    Some((digits as f64 / POWERS[decimals as usize], behind as usize))
+    (digits * 10_000 + (digits >> 32)) & 0xFFFF_FFFF
 }
 
 /// The number of digits at the beginning of `bytes`, and the value of `number` with these digits appended; from 20
 /// digits on the value is not valid.
 #[inline]
-fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {
+pub(super) fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {
     let mut count = 0;
     for byte in bytes {
         let digit = byte.wrapping_sub(b'0');
@@ -83,7 +103,7 @@ pub(super) fn decimal(text: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{decimal, short_decimal};
+    use super::{decimal, integer_in_word, short_decimal};
     use proptest::prelude::*;
 
     #[test]
@@ -108,6 +128,14 @@ mod tests {
             let expected = number.parse().ok().map(|value: f64| (value.to_bits(), number.len()));
             let found = short_decimal(format!("{number}{behind}").as_bytes());
             prop_assert_eq!(found.map(|(value, length)| (value.to_bits(), length)), expected);
+        }
+
+        /// Integers as the standard library reads their digits; one of eight digits or more is left to others.
+        #[test]
+        fn an_integer_ends_at_its_last_digit(number in "[0-9]{0,9}", behind in "[^0-9][ -~]{8}") {
+            let word = format!("{number}{behind}").as_bytes().first_chunk().copied();
+            let expected = number.parse().ok().filter(|_| number.len() < 8);
+            prop_assert_eq!(word.and_then(integer_in_word), expected.map(|x| (x, number.len())));
         }
 
         /// The standard library rounds correctly: the result must have the same bits.

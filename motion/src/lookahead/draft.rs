@@ -6,6 +6,7 @@
 //! knots: spans are looked up by their ends.
 
 use super::Span;
+use super::outline::{Outline, follow};
 use crate::cap::Cap;
 use crate::queue::Queued;
 use std::sync::Arc;
@@ -18,33 +19,50 @@ pub(crate) struct Draft {
     flat: Option<Vec<Span>>,
     /// Acceleration in mm/s2 at the start of the span of the first block.
     a_start: f64,
-    blocks: Vec<Arc<Queued>>,
+    blocks: Vec<Outline>,
     feeds: Vec<Cap>,
     caps: Vec<Cap>,
 }
 
 impl Draft {
-    /// `passing`: the plan that replaces `spans`, see [`super::passing`]; `before`: a draft whose memory is used again.
-    pub(super) fn new(
-        spans: Vec<Span>,
-        passing: Option<Vec<Span>>,
+    /// Takes over a window with its limits, and keeps the spans whose limits stay the same inside.
+    pub(super) fn follow(
+        &mut self,
         a_start: f64,
         blocks: &[Arc<Queued>],
         (feeds, caps): (&[Cap], &[Cap]),
-        before: Self,
-    ) -> Self {
-        let (spans, flat) = match passing {
+    ) {
+        if let Some(flat) = self.flat.take() {
+            self.spans = flat;
+        }
+        let begins_as_before = a_start.to_bits() == self.a_start.to_bits();
+        let same = |i: usize| {
+            let known = blocks.get(i).zip(self.blocks.get(i));
+            known.is_some_and(|(a, b)| Arc::ptr_eq(a, &b.queued)) && feeds[i] == self.feeds[i]
+        };
+        self.spans.retain(|span| {
+            let inside = span.first + 1..span.end;
+            (begins_as_before || span.first > 0)
+                && (span.first..span.end).all(same)
+                && caps[inside.clone()] == self.caps[inside]
+        });
+        self.a_start = a_start;
+        follow(&mut self.blocks, blocks);
+        feeds.clone_into(&mut self.feeds);
+        caps.clone_into(&mut self.caps);
+    }
+
+    /// The blocks of the window.
+    pub(super) fn blocks(&self) -> &[Outline] {
+        &self.blocks
+    }
+
+    /// `passing`: the plan that replaces `spans`, see [`super::passing`].
+    pub(super) fn keep(&mut self, spans: Vec<Span>, passing: Option<Vec<Span>>) {
+        (self.spans, self.flat) = match passing {
             Some(passing) => (passing, Some(spans)),
             None => (spans, None),
         };
-        let Self { blocks: mut kept, feeds: mut kept_feeds, caps: mut kept_caps, .. } = before;
-        // mostly it has the first ones already; comparing costs less than counting their owners
-        let same = kept.iter().zip(blocks).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
-        kept.truncate(same);
-        kept.extend_from_slice(&blocks[same..]);
-        feeds.clone_into(&mut kept_feeds);
-        caps.clone_into(&mut kept_caps);
-        Self { spans, flat, a_start, blocks: kept, feeds: kept_feeds, caps: kept_caps }
     }
 
     /// A plan without reusable spans.
@@ -76,27 +94,6 @@ impl Draft {
         self.blocks.drain(..count);
         self.feeds.drain(..count);
         self.caps.drain(..count);
-    }
-
-    /// The spans whose limits have not changed inside.
-    pub(super) fn left(
-        &self,
-        a_start: f64,
-        blocks: &[Arc<Queued>],
-        (feeds, caps): (&[Cap], &[Cap]),
-    ) -> Vec<Span> {
-        let begins_as_before = a_start.to_bits() == self.a_start.to_bits();
-        let same = |i: usize| {
-            let [now, before] = [blocks, &self.blocks].map(|list| list.get(i));
-            now.zip(before).is_some_and(|(a, b)| Arc::ptr_eq(a, b)) && feeds[i] == self.feeds[i]
-        };
-        let stays = |span: &&Span| {
-            let inside = span.first + 1..span.end;
-            (begins_as_before || span.first > 0)
-                && (span.first..span.end).all(same)
-                && caps[inside.clone()] == self.caps[inside]
-        };
-        self.flat.as_ref().unwrap_or(&self.spans).iter().filter(stays).cloned().collect()
     }
 }
 
@@ -142,13 +139,12 @@ mod tests {
         blocks: &[Arc<Queued>],
         limits: (&[Cap], &[Cap]),
         start: (Cap, f64),
-        before: Option<Draft>,
+        before: Draft,
     ) -> Result<Option<Draft>, TestCaseError> {
         let forced = vec![false; blocks.len() + 1];
-        let plan = |before: Option<Draft>| {
-            plan_again(blocks, limits, &forced, start, SpeedLimit::Stop, before)
-        };
-        let (anew, again) = match (plan(None), plan(before)) {
+        let plan =
+            |before: Draft| plan_again(blocks, limits, &forced, start, SpeedLimit::Stop, before);
+        let (anew, again) = match (plan(Draft::default()), plan(before)) {
             (Ok(anew), Ok(again)) => (anew, again),
             (anew, again) => {
                 prop_assert!(anew.is_err() && again.is_err());
@@ -184,7 +180,7 @@ mod tests {
             for (at, ratio, feed) in lowered {
                 let limit = if feed { &mut feeds[at % n] } else { &mut caps[at % n] };
                 limit.v_mm_s *= ratio;
-                draft = twice(&blocks, (&feeds, &caps), (Cap::STOP, 0.0), draft)?;
+                draft = twice(&blocks, (&feeds, &caps), (Cap::STOP, 0.0), draft.unwrap_or_default())?;
             }
         }
 
@@ -203,7 +199,7 @@ mod tests {
             for (passed, more) in moves {
                 let window = &blocks[first..end];
                 let feeds: Vec<Cap> = window.iter().map(|b| b.velocity).collect();
-                let planned = twice(window, (&feeds, &closed(&caps[first..end])), start, draft.take())?;
+                let planned = twice(window, (&feeds, &closed(&caps[first..end])), start, draft.take().unwrap_or_default())?;
                 let Some(mut planned) = planned else { break };
                 let passed = passed.min(end - first - 1);
                 if let Some(span) = planned.spans.iter().find(|s| s.first < passed && passed <= s.end) {

@@ -5,88 +5,79 @@
 use super::stretch::{Stretch, rates};
 use super::{Window, is_above};
 use crate::cap::Cap;
-use crate::queue::Queued;
 use crate::ride::has_hill;
-use std::sync::Arc;
 
 /// Relative difference of the path acceleration up to which blocks of a run are planned as one span with the smaller
 /// value (Assumption: the direction of a CAM contour changes little from block to block, and the control does not
 /// reduce its acceleration to zero there).
 const NEARLY_EQUAL: f64 = 0.1;
 /// Relative difference up to which limits of two blocks count as equal: rounding.
-const ALIKE: f64 = 1e-6;
+pub(super) const ALIKE: f64 = 1e-6;
 
 impl Window<'_> {
     /// Boundaries at which the fastest speed without a jerk limit has a distinct local minimum. There the acceleration
     /// passes through zero in any case, so as knots they cost no time. `plain`: blocks that are not planned across
     /// boundaries.
     pub(super) fn minima(&self, knot: &[bool], plain: &[bool]) -> Vec<bool> {
-        let blocks = self.blocks;
+        let Self { blocks, limits, v_start, .. } = *self;
         let n = blocks.len();
-        let mut own = Vec::with_capacity(n + 1);
-        own.push(self.v_start.v_mm_s * self.v_start.v_mm_s);
-        own.extend((1..n).map(|i| self.limit(i).v_mm_s).map(|v| v * v));
-        own.push(0.0);
+        let inside = limits[1..].iter().map(|limit| limit.v_mm_s);
+        let own = std::iter::once(v_start.v_mm_s).chain(inside).chain([0.0]).map(|v| v * v);
+        let own: Vec<f64> = own.collect();
+        // the fastest speed, squared: no faster than braking to the next boundary and speeding up from the last one allow
         let mut square = own.clone();
-        // gain of the squared speed along each block, up and down; none where its limits have no rates
-        let gain =
-            |b: &Arc<Queued>| rates(b).map(|r| (2.0 * b.length * r.acc, 2.0 * b.length * r.dec));
-        let gains: Vec<Option<(f64, f64)>> = blocks.iter().map(gain).collect();
-        for i in (0..n).rev() {
-            square[i] = square[i].min(square[i + 1] + gains[i].map_or(0.0, |(_, down)| down));
+        let mut next = 0.0;
+        for (here, block) in square.iter_mut().zip(blocks).rev() {
+            *here = here.min(next + block.gain.map_or(0.0, |(_, down)| down));
+            next = *here;
         }
-        for i in 0..n {
-            square[i + 1] = square[i + 1].min(square[i] + gains[i].map_or(0.0, |(up, _)| up));
+        let mut last = square[0];
+        for (here, block) in square[1..].iter_mut().zip(blocks) {
+            *here = here.min(last + block.gain.map_or(0.0, |(up, _)| up));
+            last = *here;
         }
         // at a boundary that merely divides a line there is nothing to decide, and a hill may extend across it
-        let divides: Vec<bool> = (0..=n).map(|b| b > 0 && b < n && self.only_divides(b)).collect();
-        let (mut begins, mut ends): (Vec<usize>, Vec<usize>) = (0..n).map(|i| (i, i + 1)).unzip();
-        for i in 1..n {
-            if divides[i] {
-                begins[i] = begins[i - 1];
-            }
-        }
-        for i in (1..n).rev() {
-            if divides[i] {
-                ends[i - 1] = ends[i];
-            }
-        }
+        let divides = |b: usize| b > 0 && b < n && self.only_divides(b);
         // whether the part of a line between two boundaries has a hill
         let own_hill = |from: usize, to: usize| {
             let v = square[from].max(square[to]).sqrt();
             let length = blocks[from..to].iter().map(|b| b.length).sum();
-            rates(&blocks[from]).is_some_and(|r| has_hill(length, v, &r))
+            rates(&blocks[from].queued).is_some_and(|r| has_hill(length, v, &r))
         };
         // the two ends of a rounded corner have the same limit up to rounding
         let lowest = |i: usize, neighbour: usize| square[i] <= square[neighbour] * (1.0 + ALIKE);
-        (0..=n)
-            .map(|i| {
-                i > 0
-                    && i < n
-                    && !divides[i]
-                    && !knot[i]
-                    && !plain[i]
-                    && blocks[i].plans_across()
-                    && gains[i].is_some()
-                    && square[i] >= own[i] * (1.0 - ALIKE)
-                    && (lowest(i, begins[i - 1]) || own_hill(begins[i - 1], i))
-                    && (lowest(i, ends[i]) || own_hill(i, ends[i]))
-            })
-            .collect()
+        let is_minimum = |i: usize| {
+            if divides(i)
+                || knot[i]
+                || plain[i]
+                || !blocks[i].plans_across
+                || blocks[i].gain.is_none()
+                || square[i] < own[i] * (1.0 - ALIKE)
+            {
+                return false;
+            }
+            let mut begin = i - 1;
+            while divides(begin) {
+                begin -= 1;
+            }
+            let mut end = i + 1;
+            while divides(end) {
+                end += 1;
+            }
+            (lowest(i, begin) || own_hill(begin, i)) && (lowest(i, end) || own_hill(i, end))
+        };
+        (0..=n).map(|i| i > 0 && i < n && is_minimum(i)).collect()
     }
 
     /// Whether the planner may treat the blocks on both sides of a boundary as parts of one line.
     pub(super) fn only_divides(&self, b: usize) -> bool {
-        let (before, behind) = (&self.blocks[b - 1], &self.blocks[b]);
-        let feed = self.feeds[b];
-        let same = |a: f64, b: f64| (a - b).abs() <= ALIKE * a.abs();
-        // between the lines of a contour the acceleration differs most often, so it is compared first
-        before.slope.has_same_rates(&behind.slope, same)
+        let feed = self.feeds[b].v_mm_s;
+        // between the lines of a contour the acceleration differs most often, so it is asked for first
+        self.blocks[b].same_rates()
             && !self.forced[b]
             && !self.carried[b]
-            && !is_above(feed.v_mm_s, self.limit(b).v_mm_s)
-            && same(self.feeds[b - 1].v_mm_s, feed.v_mm_s)
-            && before.block.slope == behind.block.slope
+            && !is_above(feed, self.limits[b].v_mm_s)
+            && (self.feeds[b - 1].v_mm_s - feed).abs() <= ALIKE * self.feeds[b - 1].v_mm_s.abs()
     }
 
     /// Drops the minima at which zero acceleration would cost speed; true if there were any.
@@ -108,7 +99,7 @@ impl Window<'_> {
         }
         for (s, v) in stretches.iter().zip(speeds).skip(1) {
             let b = s.first;
-            if soft[b] && !knot[b] && v.v_mm_s < self.limit(b).v_mm_s * (1.0 - 1e-9) {
+            if soft[b] && !knot[b] && v.v_mm_s < self.limits[b].v_mm_s * (1.0 - 1e-9) {
                 soft[b] = false;
                 any = true;
             }
@@ -128,14 +119,14 @@ impl Window<'_> {
             let drops = is_above(self.entries[i].v_mm_s, feeds[i].v_mm_s);
             let joined = self.carried[i]
                 || !self.forced[i]
-                    && a.block.slope == b.block.slope
-                    && if a.plans_across() && !plain[i - 1] {
+                    && b.same_slope()
+                    && if a.plans_across && !plain[i - 1] {
                         caps[i].v_mm_s > 0.0 && !drops
                     } else {
                         let feed = feeds[i - 1].v_mm_s.min(feeds[i].v_mm_s);
                         caps[i].v_mm_s >= feed
                             && (feeds[i - 1].v_mm_s - feeds[i].v_mm_s).abs() <= 1e-9 * feed
-                            && blocks[run].slope.nearly_equals(&b.slope, NEARLY_EQUAL)
+                            && blocks[run].queued.slope.nearly_equals(&b.queued.slope, NEARLY_EQUAL)
                     };
             plain[i] = if joined { plain[i - 1] } else { drops };
             if !joined {

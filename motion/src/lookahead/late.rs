@@ -17,11 +17,10 @@
 //! None of this is certain to be faster, so the fastest of three plans is used: with carried braking, without it, and
 //! without G901.
 
-use super::{Span, Stretch, Window, is_above};
+use super::outline::Outline;
+use super::{Span, Stretch, Window, is_above, limits};
 use crate::cap::Cap;
 use crate::profile::Infeasible;
-use crate::queue::Queued;
-use std::sync::Arc;
 
 /// Bisection steps for the entry speed of a run of several blocks.
 const HALVINGS: u32 = 40;
@@ -29,7 +28,10 @@ const HALVINGS: u32 = 40;
 const ROUNDS: usize = 16;
 
 /// Entry speeds of the blocks; `None` if no block may be entered above its feed rate.
-pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>> {
+pub(super) fn entries(blocks: &[Outline], feeds: &[Cap]) -> Option<Vec<Cap>> {
+    if !blocks.iter().any(|block| block.may_brake_late) {
+        return None;
+    }
     let mut entries = feeds.to_vec();
     for i in 1..blocks.len() {
         let most = highest(blocks, feeds, i);
@@ -42,19 +44,21 @@ pub(super) fn entries(blocks: &[Arc<Queued>], feeds: &[Cap]) -> Option<Vec<Cap>>
 }
 
 /// Highest entry speed of block `i`, whatever the feed rate of the block before.
-fn highest(blocks: &[Arc<Queued>], feeds: &[Cap], i: usize) -> Cap {
+fn highest(blocks: &[Outline], feeds: &[Cap], i: usize) -> Cap {
     // a cap below the feed rate of the block (tolerance monitoring) is a limit
-    let own = feeds[i].v_mm_s >= blocks[i].velocity.v_mm_s;
-    let before = &blocks[i - 1];
+    let [before, block] = [i - 1, i].map(|i| &blocks[i].queued);
+    let own = feeds[i].v_mm_s >= block.velocity.v_mm_s;
     let below_limit = before.velocity.v_mm_s < before.ceiling.v_mm_s;
-    let late = own && below_limit && before.brakes_late_into(&blocks[i]);
-    if late && blocks[i].ceiling.v_mm_s > feeds[i].v_mm_s { blocks[i].ceiling } else { feeds[i] }
+    let late = own && below_limit && before.brakes_late_into(block);
+    if late && block.ceiling.v_mm_s > feeds[i].v_mm_s { block.ceiling } else { feeds[i] }
 }
 
 /// Plans a window with these entry speeds; `early` is the window without them.
-pub(super) fn plan(early: &Window<'_>, entries: Vec<Cap>) -> Result<Vec<Span>, Infeasible> {
-    let mut late = Window { entries, ..early.clone() };
-    late.carry_start();
+pub(super) fn plan(early: &Window<'_>, entries: &[Cap]) -> Result<Vec<Span>, Infeasible> {
+    let limits = &limits(early.feeds, early.caps, entries)[..];
+    let late = Window { entries, limits, ..*early };
+    let carried = &late.carried_from_start()[..];
+    let late = Window { carried, ..late };
     let best = match (late.plan_passing(), early.plan_passing()) {
         (Ok(late), Ok(early)) => faster(late, early),
         (Ok(plan), _) | (_, Ok(plan)) => plan,
@@ -112,38 +116,40 @@ impl Window<'_> {
         let (from, to) = (&self.blocks[b - 1], &self.blocks[b]);
         !self.forced[b]
             && self.feeds[b].v_mm_s <= self.feeds[b - 1].v_mm_s.min(self.caps[b].v_mm_s)
-            && from.block.slope == to.block.slope
-            && from.brakes_late_into(to)
+            && to.same_slope()
+            && from.queued.brakes_late_into(&to.queued)
     }
 
-    /// Carries braking that begins before the window as far as necessary.
-    fn carry_start(&mut self) {
+    /// Boundaries across which braking that begins before the window has to be carried.
+    fn carried_from_start(&self) -> Vec<bool> {
+        let mut carried = self.carried.to_vec();
         let v0 = self.v_start.v_mm_s;
         for end in 1..self.blocks.len() {
-            let s = self.stretch(0, end);
+            let s = Window { carried: &carried, ..*self }.stretch(0, end);
             if !s.is_above(v0) || s.slope.down_distance(v0, s.feed) <= s.length || !self.joins(end)
             {
-                return;
+                break;
             }
-            self.carried[end] = true;
+            carried[end] = true;
         }
+        carried
     }
 
     /// A plan with braking carried across the ends of runs as far as that makes it faster; `None` if it does so
     /// nowhere.
     fn carried(&self, base: &[Span]) -> Option<Vec<Span>> {
-        let mut window = self.clone();
+        let mut carried = self.carried.to_vec();
         let mut plan: Option<Vec<Span>> = None;
         for _ in 0..ROUNDS {
             let now = plan.as_deref().unwrap_or(base);
-            let joints = window.joints(now);
+            let joints = Window { carried: &carried, ..*self }.joints(now);
             if joints.is_empty() {
                 break;
             }
             for b in joints {
-                window.carried[b] = true;
+                carried[b] = true;
             }
-            match window.plan_passing() {
+            match (Window { carried: &carried, ..*self }).plan_passing() {
                 Ok(next) => plan = Some(next),
                 Err(_) => break,
             }
@@ -173,7 +179,7 @@ impl Window<'_> {
     fn gains(&self, plan: &[Span], k: usize) -> bool {
         let [before, first, second] = &plan[k - 1..=k + 1] else { return false };
         let start = |s: &Span| s.profile.at(0.0).v_mm_s;
-        let best = self.limit(first.first).v_mm_s;
+        let best = self.limits[first.first].v_mm_s;
         if !is_above(self.entries[first.first].v_mm_s, self.feeds[first.first].v_mm_s)
             || !is_above(best, start(first))
             || !self.joins(second.first)

@@ -108,11 +108,11 @@ impl Window<'_> {
             && is_above(feed, cap.v_mm_s)
             && cap.why != SpeedLimit::AxDev
             && !self.forced[b]
-            && before.plans_across()
-            && before.block.slope == behind.block.slope
+            && before.plans_across
+            && behind.same_slope()
             && !late(b - 1)
             && !late(b)
-            && behind.block.slope.kind == SlopeKind::Hsc
+            && behind.queued.block.slope.kind == SlopeKind::Hsc
     }
 
     /// The spans of the plan, split at the kinks that limit them inside.
@@ -127,7 +127,7 @@ impl Window<'_> {
                     continue;
                 }
                 let v = rest.profile.at(rest.profile.time_at(at)).v_mm_s;
-                let cap = self.limit(b);
+                let cap = self.limits[b];
                 if v < cap.v_mm_s * (1.0 - AT_LIMIT) {
                     continue;
                 }

@@ -2,13 +2,13 @@
 //!
 //! A stretch has its blocks; the speeds at its ends belong to the window.
 
-use super::is_above;
+use super::outline::Outline;
+use super::{Window, is_above};
 use crate::cap::Cap;
 use crate::profile::{Infeasible, Profile, Rates, SlopeLimits};
 use crate::queue::Queued;
 use crate::ride::{Cell, has_hill};
 use std::ops::Deref;
-use std::sync::Arc;
 
 /// Relative difference of the path acceleration from which on blocks planned across are not planned with the weakest of
 /// them.
@@ -54,6 +54,67 @@ impl Weakest<'_> {
     }
 }
 
+impl<'a> Window<'a> {
+    /// The stretches between knots.
+    pub(super) fn stretches(&self, is_knot: impl Fn(usize) -> bool) -> Vec<Stretch<'a>> {
+        let mut out = Vec::with_capacity(self.blocks.len());
+        let mut first = 0;
+        for end in (1..=self.blocks.len()).filter(|b| is_knot(*b)) {
+            out.push(self.stretch(first, end));
+            first = end;
+        }
+        out
+    }
+
+    /// Joins stretches between which there is no knot any more.
+    pub(super) fn join_dropped(
+        &self,
+        stretches: &mut Vec<Stretch<'a>>,
+        is_knot: impl Fn(usize) -> bool,
+    ) {
+        stretches.dedup_by(|behind, joined| {
+            let dropped = !is_knot(behind.first);
+            if dropped {
+                self.prolong(joined, behind.end);
+            }
+            dropped
+        });
+    }
+
+    /// The blocks from `first` up to the boundary before block `end`.
+    pub(super) fn stretch(&self, first: usize, end: usize) -> Stretch<'a> {
+        let mut s = Stretch::of(self.blocks, self.feeds, first);
+        self.prolong(&mut s, end);
+        s
+    }
+
+    /// Prolongs a stretch up to the boundary before block `end`.
+    fn prolong(&self, s: &mut Stretch<'a>, end: usize) {
+        for i in s.end..end {
+            s.length += self.blocks[i].length;
+            let feed = self.feeds[i].v_mm_s;
+            s.feed = if self.carried[i] {
+                // the speed at which the braking ends
+                feed
+            } else {
+                // across blocks of different feed rates the check finds the boundaries that are exceeded
+                s.feed.max(feed)
+            };
+            s.slope.join(&self.blocks[i].queued.slope);
+        }
+        s.end = end;
+    }
+}
+
+impl<'a> Stretch<'a> {
+    /// The stretch of one block.
+    fn of(blocks: &'a [Outline], feeds: &[Cap], first: usize) -> Self {
+        let (block, feed) = (&blocks[first], feeds[first].v_mm_s);
+        let slope = Weakest::One(&block.queued.slope);
+        Self { first, end: first + 1, length: block.length, feed, slope }
+    }
+}
+
 impl Stretch<'_> {
     /// Both stretches as one, with the feed rate of the second: braking continues from the first into the second.
     pub(super) fn carried_into(mut self, second: &Self) -> Self {
@@ -75,25 +136,37 @@ impl Stretch<'_> {
     /// this speed to use it. `divides`: whether the boundary before a block only divides a line.
     pub(super) fn is_uneven(
         &self,
-        blocks: &[Arc<Queued>],
+        blocks: &[Outline],
         divides: impl Fn(usize) -> bool,
         v: f64,
     ) -> bool {
         let mut length = 0.0;
         (self.first..self.end).any(|i| {
             let block = &blocks[i];
-            if block.slope.nearly_equals(&self.slope, UNEVEN) {
+            if block.queued.slope.nearly_equals(&self.slope, UNEVEN) {
                 return false;
             }
             let goes_on = i > self.first && divides(i);
             length = if goes_on { length + block.length } else { block.length };
-            rates(block).is_some_and(|r| has_hill(length, v, &r))
+            rates(&block.queued).is_some_and(|r| has_hill(length, v, &r))
         })
     }
 
     /// Whether a speed at its start is above its feed rate (G901).
     pub(super) fn is_above(&self, v0: f64) -> bool {
         is_above(v0, self.feed)
+    }
+
+    /// The speed in mm/s of a single block between these speeds if it has nothing but one speed, as most blocks of a run.
+    pub(super) fn even_speed(&self, (v0, v1): (f64, f64)) -> Option<f64> {
+        let is_even = self.end - self.first == 1
+            && self.feed <= v0
+            && v0.to_bits() == v1.to_bits()
+            && !self.is_above(v0)
+            && v0 > 0.0
+            && self.length > 0.0
+            && matches!(*self.slope, SlopeLimits::Ramped(_));
+        is_even.then_some(v0)
     }
 
     pub(super) fn profile(&self, v0: f64, v1: f64) -> Result<Profile, Infeasible> {
@@ -107,7 +180,7 @@ impl Stretch<'_> {
 
 /// Limits of the blocks of a stretch; `None` with STEP and with constant ramp times.
 pub(super) fn cells(
-    blocks: &[Arc<Queued>],
+    blocks: &[Outline],
     feeds: &[Cap],
     caps: &[Cap],
     first: usize,
@@ -120,7 +193,7 @@ pub(super) fn cells(
             // the boundary belongs to both blocks
             let both = |i: usize| caps[i + 1].v_mm_s.min(feeds[i].v_mm_s).min(feeds[i + 1].v_mm_s);
             let cap = if i + 1 < end { both(i) } else { f64::INFINITY };
-            Some(Cell { end: at, v: feeds[i].v_mm_s, cap, rates: rates(&blocks[i])? })
+            Some(Cell { end: at, v: feeds[i].v_mm_s, cap, rates: rates(&blocks[i].queued)? })
         })
         .collect()
 }
@@ -134,7 +207,7 @@ pub(super) fn rates(block: &Queued) -> Option<Rates> {
 
 /// The boundary inside a span at which the profile exceeds its cap, or the velocity of the block before it, most.
 pub(super) fn most_exceeded(
-    blocks: &[Arc<Queued>],
+    blocks: &[Outline],
     feeds: &[Cap],
     caps: &[Cap],
     s: &Stretch<'_>,

@@ -71,7 +71,8 @@ impl Profile {
     }
 
     /// A constant speed in mm/s, above 0, over a length, as most short blocks of a run have it.
-    pub(super) fn even(v_mm_s: f64, length: f64) -> Self {
+    #[inline]
+    pub(crate) fn even(v_mm_s: f64, length: f64) -> Self {
         let cruise = Phase::state(0.0, v_mm_s, 0.0).until(length / v_mm_s);
         let end = State { s_mm: length, v_mm_s, ..State::default() };
         Self { phases: Phases::One([(0.0, cruise)]), duration: cruise.t, end }

@@ -1,9 +1,20 @@
 //! Blanks and digits.
 
 use crate::source::regions::closed_comment;
+use crate::syntax::number::{digits, integer_in_word};
 
 /// Position after blanks and comments in brackets, which are blanks for the grammar.
-pub(super) fn blanks(bytes: &[u8], mut at: usize) -> usize {
+#[inline]
+pub(super) fn blanks(bytes: &[u8], at: usize) -> usize {
+    // between most words there is one blank or none
+    let behind = at + usize::from(bytes.get(at) == Some(&b' '));
+    match bytes.get(behind) {
+        Some(b' ' | b'\t' | b'(') => several_blanks(bytes, behind),
+        _ => behind,
+    }
+}
+
+fn several_blanks(bytes: &[u8], mut at: usize) -> usize {
     loop {
         match bytes.get(at) {
             Some(b' ' | b'\t') => at += 1,
@@ -27,14 +38,10 @@ pub(super) fn before_words(bytes: &[u8], at: usize) -> usize {
 
 /// Digits from `at` on: value and end position; limited in number, so that the value does not overflow.
 pub(super) fn integer(bytes: &[u8], at: usize) -> Option<(u64, usize)> {
-    let mut value = 0_u64;
-    let mut end = at;
-    while let Some(byte) = bytes.get(end).filter(|b| b.is_ascii_digit()) {
-        value = value * 10 + u64::from(byte - b'0');
-        end += 1;
-        if end > at + 18 {
-            return None;
-        }
+    let bytes = bytes.get(at..)?;
+    if let Some((value, length)) = bytes.first_chunk().and_then(|word| integer_in_word(*word)) {
+        return Some((value, at + length));
     }
-    (end > at).then_some((value, end))
+    let (count, value) = digits(bytes, 0);
+    (1..=18).contains(&count).then_some((value, at + count))
 }
