@@ -112,11 +112,11 @@ fn smoothing(c: &mut Criterion) {
         b.iter(|| {
             let mut stage = Splining::new(CycleTime::DEFAULT);
             for block in &splined {
-                for out in stage.push(block.clone(), false) {
+                for out in stage.push(block.clone(), &Kernels::default()) {
                     black_box(out);
                 }
             }
-            for out in stage.flush(false) {
+            for out in stage.flush(&Kernels::default()) {
                 black_box(out);
             }
         });

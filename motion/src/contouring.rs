@@ -224,6 +224,7 @@ impl Contouring {
             to: block,
             cycle: self.cycle,
             kernel_active,
+            monitored: None,
         };
         // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end speed are
         // programmed explicitly
@@ -233,9 +234,10 @@ impl Contouring {
         let timed = |(block, v_mm_s): &(Block, f64)| Part {
             length_mm: block.path.length(),
             v_mm_s: *v_mm_s,
+            bend: 0.0,
         };
         let timed: Vec<Part> = parts.iter().map(timed).collect();
-        if monitored || demanded || passage.is_worth(&timed, curve.pre_mm, curve.post_mm) {
+        if monitored || demanded || passage.is_worth(&timed, [curve.pre_mm, curve.post_mm], 0.0) {
             Ok(Some((curve, parts)))
         } else {
             Err(NoContour::Slower)

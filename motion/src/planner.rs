@@ -188,6 +188,11 @@ impl Planner {
         self.kernels.any()
     }
 
+    /// The kernels, see [`Self::set_kernels`].
+    pub fn kernels(&self) -> &Kernels {
+        &self.kernels
+    }
+
     /// Sets the value that the override is a percentage of (P-CHAN-00066), from the next cycle on.
     pub fn set_override_mode(&mut self, mode: OverrideMode) {
         self.wanted.ratios.mode = mode;

@@ -27,7 +27,8 @@
 //! has a curvature of about `jump^2 / (6 d)` there. Below the deviation of the polygon with equal edges a smaller
 //! tolerance therefore costs speed, as its square root: the edges become straighter and the corners sharper, and the
 //! path speed has a ripple. A corner just short of a reversal stays a corner, as in contouring. So does a corner that
-//! is passed faster without the spline ([`worth`]): neither a larger tolerance nor more corners cost time.
+//! is passed faster without the spline ([`worth`]), under `AX_DEV` possibly with a stop: neither a larger tolerance nor
+//! more corners cost time.
 //!
 //! `PATH_DEV` and `TRACK_DEV` limit the total: what a fit uses next to a corner is not available there.
 //!
@@ -42,6 +43,7 @@
 //! use kontur_filters::time::CycleTime;
 //! use kontur_motion::block::SplineSettings;
 //! use kontur_motion::spline::Splining;
+//! use kontur_motion::tolerance::Kernels;
 //!
 //! // a circle of 10 mm in chords of 10 degrees
 //! let point = |i: u64| { let (sin, cos) = libm::sincos(i as f64 * 0.1745); [10.0 * cos, 10.0 * sin] };
@@ -50,9 +52,9 @@
 //! for i in 0..36 {
 //!     let mut chord = block(i, point(i), point(i + 1), 100.0);
 //!     chord.spline = Some(SplineSettings::default());
-//!     out.extend(stage.push(chord, false));
+//!     out.extend(stage.push(chord, &Kernels::default()));
 //! }
-//! out.extend(stage.flush(false));
+//! out.extend(stage.flush(&Kernels::default()));
 //! assert!(out.iter().all(|block| !block.path.is_straight()));
 //! ```
 
@@ -67,6 +69,7 @@ mod worth;
 use crate::block::{Block, Feed};
 use crate::contouring::{NoContour, Notice};
 use crate::path::piece;
+use crate::tolerance::Kernels;
 use edge::{Corner, Curve, Edge, Part, reach};
 use fairing::{Fairing, Out};
 use kontur_filters::time::CycleTime;
@@ -147,25 +150,29 @@ impl Splining {
         block.spline.is_none() && self.run.is_empty() && self.fairing.is_empty()
     }
 
-    /// Takes a block and returns the final ones. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at
-    /// corners.
-    pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
+    /// Takes a block and returns the final ones. `kernels`: with any of them `ACC_FACT` applies at corners, and
+    /// `AX_DEV` if it is programmed.
+    pub fn push<'a>(
+        &'a mut self,
+        block: Block,
+        kernels: &Kernels,
+    ) -> impl Iterator<Item = Block> + use<'a> {
         let mut fairing = std::mem::take(&mut self.fairing);
         for out in fairing.push(block) {
-            self.take(out, kernel_active);
+            self.take(out, kernels);
         }
         self.fairing = fairing;
         self.ready.drain(..)
     }
 
     /// Returns everything that is held, where the path stops after the last block.
-    pub fn flush(&mut self, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
+    pub fn flush<'a>(&'a mut self, kernels: &Kernels) -> impl Iterator<Item = Block> + use<'a> {
         let mut fairing = std::mem::take(&mut self.fairing);
         for out in fairing.flush() {
-            self.take(out, kernel_active);
+            self.take(out, kernels);
         }
         self.fairing = fairing;
-        self.end_run(kernel_active);
+        self.end_run(kernels);
         self.ready.drain(..)
     }
 
@@ -174,11 +181,11 @@ impl Splining {
         std::mem::take(&mut self.notices)
     }
 
-    fn take(&mut self, out: Out, kernel_active: bool) {
+    fn take(&mut self, out: Out, kernels: &Kernels) {
         let mut edge = match out {
             Out::Edge(edge) => *edge,
             Out::End => {
-                self.end_run(kernel_active);
+                self.end_run(kernels);
                 return;
             }
             Out::Block(block) => {
@@ -192,7 +199,7 @@ impl Splining {
         self.from_start |= self.run.is_empty();
         self.settle([edge.length, edge.interval]);
         self.run.push_back(edge);
-        self.advance(kernel_active);
+        self.advance(kernels);
     }
 
     /// Completes the corner at the start of the last edge, which also depends on length and interval of the next edge.
@@ -221,20 +228,20 @@ impl Splining {
         }
     }
 
-    fn end_run(&mut self, kernel_active: bool) {
+    fn end_run(&mut self, kernels: &Kernels) {
         if let Some(last) = self.run.back() {
             // mirrored at the end
             self.settle([last.length, last.interval]);
         }
         self.to_end = true;
-        self.advance(kernel_active);
+        self.advance(kernels);
         self.run.clear();
         (self.curved, self.compared, self.judged, self.done) = (0, 0, [0; ROUNDS], 0);
         (self.from_start, self.to_end) = (false, false);
     }
 
     /// Outputs the edges that are decided; at the end of the run all of them.
-    fn advance(&mut self, kernel_active: bool) {
+    fn advance(&mut self, kernels: &Kernels) {
         let to_end = self.to_end;
         let decided = |ahead: usize, of: usize| if to_end { of } else { of.saturating_sub(ahead) };
         while self.curved < decided(AHEAD, self.run.len()) {
@@ -244,7 +251,7 @@ impl Splining {
         }
         while self.compared < self.curved {
             let programmed = self.compared > 0 && self.run[self.compared].corner.programmed;
-            let slower = programmed && !self.is_worth(self.compared, kernel_active);
+            let slower = programmed && !self.is_worth(self.compared, kernels);
             let corner = &mut self.run[self.compared].corner;
             corner.slower = slower;
             corner.sharp_since = (slower && corner.e.is_some()).then_some(0);
@@ -254,7 +261,7 @@ impl Splining {
         for round in 1..=ROUNDS {
             for at in self.judged[round - 1]..decided(AHEAD - 1, known) {
                 let Corner { slower, sharp_since, .. } = self.run[at].corner;
-                if slower && sharp_since.is_none() && self.gains_as_end(at, round, kernel_active) {
+                if slower && sharp_since.is_none() && self.gains_as_end(at, round, kernels) {
                     self.run[at].corner.sharp_since = Some(round);
                 }
                 self.judged[round - 1] = at + 1;

@@ -2,16 +2,21 @@
 //!
 //! A sharp corner limits the speed at one point only, to the speed allowed at its kink. A curve limits it over its whole
 //! length, to what its curvature and the rate of change of that curvature allow. A small curve at a sharp corner, or between
-//! two chords of a few hundredths of a millimetre, is the slower of the two.
+//! two chords of a few hundredths of a millimetre, is the slower of the two. Under `AX_DEV` the set path may need a stop at the
+//! sharp corner; a curve that has to be slowed down for it mostly takes longer still ([`monitored`]).
 //!
 //! Both are timed from the middle of the block before the corner to the middle of the block after it, as if the speed
 //! had a maximum at those points. For a row of equal corners this is exact.
+
+mod monitored;
 
 use crate::block::Block;
 use crate::junction::{Ends, transition};
 use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::profile::SlopeLimits;
 use kontur_filters::time::CycleTime;
+pub(crate) use monitored::Monitored;
+use monitored::Passing;
 
 /// Relative rounding error allowed when times are compared.
 const SLACK: f64 = 1e-9;
@@ -25,6 +30,8 @@ pub(crate) struct Part {
     pub(crate) length_mm: f64,
     /// Highest speed.
     pub(crate) v_mm_s: f64,
+    /// Largest second derivative of an axis in 1/mm, if `AX_DEV` applies.
+    pub(crate) bend: f64,
 }
 
 /// A block next to the corner, seen from the corner: speed rises with the distance from it on either side.
@@ -84,7 +91,8 @@ impl Side {
             at
         });
         let at_once = starts.enumerate().find_map(|(skipped, at)| {
-            self.through(slowest, &outer[skipped..], inside - at + rest).map(|t| at / slowest + t)
+            self.through(slowest, &outer[skipped..], inside - at + rest)
+                .map(|t| over_s(at, slowest) + t)
         });
         held.min(in_two).min(at_once.unwrap_or(f64::INFINITY))
     }
@@ -115,28 +123,55 @@ pub(crate) struct Passage<'a> {
     pub(crate) to: &'a Block,
     pub(crate) cycle: CycleTime,
     pub(crate) kernel_active: bool,
+    /// `AX_DEV`, if it applies.
+    pub(crate) monitored: Option<Monitored<'a>>,
 }
 
 impl Passage<'_> {
     /// Whether the curve in `parts` takes no longer than the sharp corner; `pre_mm` and `post_mm` are its corner
-    /// distances.
-    pub(crate) fn is_worth(&self, parts: &[Part], pre_mm: f64, post_mm: f64) -> bool {
+    /// distances, `off_mm` is its distance from the corner.
+    pub(crate) fn is_worth(
+        &self,
+        parts: &[Part],
+        [pre_mm, post_mm]: [f64; 2],
+        off_mm: f64,
+    ) -> bool {
         // where the path stops (G116) a curve only adds a stop
         if self.to.dynamics.stop_at_transitions {
             return false;
         }
-        let slowest = slowest(parts);
         let sides = self.sides();
+        let most = || self.sharp_mm_s().min(sides[0].v_mm_s).min(sides[1].v_mm_s);
+        let (mut v, mut slower, mut held_s) = (None, None, 0.0);
+        if let Some(monitored) = &self.monitored {
+            let (turn, most) = (self.turn(), most());
+            v = Some(monitored.sharp(&sides, turn, most).v_mm_s);
+            if v < Some(most) && !monitored.passes(&sides, parts, turn, off_mm) {
+                return false;
+            }
+            let limited = monitored.limited(parts, turn, off_mm);
+            if limited.iter().zip(parts).any(|(limited, part)| limited.v_mm_s < part.v_mm_s) {
+                held_s = monitored.reach_s();
+            }
+            slower = Some(limited);
+        }
+        let parts = slower.as_deref().unwrap_or(parts);
+        let slowest = slowest(parts);
         // only the programmed feed rates limit the curve
         if sides.iter().all(|side| slowest >= AT_FEED * side.v_mm_s) {
             return true;
         }
-        let v = self.sharp_mm_s().min(sides[0].v_mm_s).min(sides[1].v_mm_s);
+        let v = v.unwrap_or_else(most);
         let bridged: f64 = self.bridged.iter().map(|b| b.path.length()).sum();
-        let over = if bridged > 0.0 { bridged / v } else { 0.0 };
         let away = sides.iter().map(|side| side.leg(v, side.v_mm_s, side.half_mm).1);
-        let sharp = over + away.sum::<f64>();
-        curve_s(&sides, parts, [pre_mm, post_mm]) <= sharp * (1.0 + SLACK)
+        let sharp = over_s(bridged, v) + away.sum::<f64>();
+        curve_s(&sides, parts, [pre_mm, post_mm]) + held_s <= sharp * (1.0 + SLACK)
+    }
+
+    /// Largest change of a component of the direction at the corner.
+    pub(crate) fn turn(&self) -> f64 {
+        let (out, into) = (Ends::of(self.from).tangent_out, Ends::of(self.to).tangent_in);
+        out.iter().zip(into.iter()).map(|(u, w)| (w - u).abs()).fold(0.0, f64::max)
     }
 
     /// Highest speed at the sharp corner.
@@ -149,15 +184,33 @@ impl Passage<'_> {
         caps.fold(f64::INFINITY, f64::min)
     }
 
-    /// Time in s for the parts alone, as if the speed had a maximum at both ends.
-    pub(crate) fn time_s(&self, parts: &[Part]) -> f64 {
+    /// Time in s for the parts before and after the corner alone, as if the speed had a maximum at both ends;
+    /// `sharp`: with the sharp corner between them.
+    pub(crate) fn time_s(&self, [mut parts, after]: [Vec<Part>; 2], sharp: bool) -> f64 {
         let sides = self.sides();
-        curve_s(&sides, parts, sides.each_ref().map(|side| side.half_mm))
+        let mut dwell_s = 0.0;
+        if sharp {
+            let most = self.sharp_mm_s();
+            let free = Passing { v_mm_s: most, dwell_s: 0.0 };
+            let passing = self.monitored.map_or(free, |m| m.sharp(&sides, self.turn(), most));
+            dwell_s = passing.dwell_s;
+            parts.push(Part { length_mm: 0.0, v_mm_s: passing.v_mm_s, bend: 0.0 });
+        }
+        parts.extend(after);
+        if let Some(monitored) = &self.monitored {
+            parts = monitored.limited(&parts, self.turn(), 0.0);
+        }
+        dwell_s + curve_s(&sides, &parts, sides.each_ref().map(|side| side.half_mm))
     }
 
     fn sides(&self) -> [Side; 2] {
         [Side::of(self.from, true, self.cycle), Side::of(self.to, false, self.cycle)]
     }
+}
+
+/// Time in s for a length at a speed; the path may stop at a point.
+fn over_s(length_mm: f64, v_mm_s: f64) -> f64 {
+    if length_mm > 0.0 { length_mm / v_mm_s } else { 0.0 }
 }
 
 fn slowest(parts: &[Part]) -> f64 {
@@ -174,6 +227,6 @@ fn curve_s(sides: &[Side; 2], parts: &[Part], distances: [f64; 2]) -> f64 {
     let outer = [parts[..first].iter().rev().copied().collect(), parts[last + 1..].to_vec()];
     let inner: f64 = parts[first..=last].iter().map(|part| part.length_mm).sum();
     let outside = sides.iter().zip(&outer).zip(distances);
-    inner / slowest
+    over_s(inner, slowest)
         + outside.map(|((side, outer), distance)| side.away(slowest, outer, distance)).sum::<f64>()
 }

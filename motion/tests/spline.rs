@@ -1,6 +1,7 @@
 //! B-spline through short blocks: tolerance, smoothness, ends, ripple.
 
 mod limits;
+mod monitored;
 mod ripple;
 mod slaved;
 mod unequal;
@@ -10,10 +11,11 @@ use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
-use kontur_motion::block::{Block, ChannelDynamics, SplineSettings};
+use kontur_motion::block::{Block, ChannelDynamics, SlopeKind, SplineSettings};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::Setpoint;
 use kontur_motion::spline::Splining;
+use kontur_motion::tolerance::Kernels;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
@@ -29,15 +31,16 @@ fn splined_and_sharp(
     feed: f64,
 ) -> (Vec<Block>, Vec<u64>) {
     let mut stage = Splining::new(CycleTime::DEFAULT);
+    let kernels = Kernels::new(vec![job.kernel.clone().map(Arc::new); points[0].len()]);
     let mut out = Vec::new();
     for (i, w) in points.windows(2).enumerate() {
         let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
         let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
         let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
-        out.extend(stage.push(block, false));
+        out.extend(stage.push(block, &kernels));
         assert!(out.last().map_or(0, |b| b.seq) as usize + 791 > i, "the buffer is bounded");
     }
-    out.extend(stage.flush(false));
+    out.extend(stage.flush(&kernels));
     let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();
     assert!(numbers.is_sorted());
     numbers.dedup();

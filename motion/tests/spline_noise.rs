@@ -9,6 +9,7 @@ use kontur_motion::block::{Block, SplineSettings};
 use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::Setpoint;
 use kontur_motion::spline::Splining;
+use kontur_motion::tolerance::Kernels;
 
 fn machine(axes: usize) -> Job {
     let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
@@ -28,9 +29,9 @@ fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) 
         let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
         let Some(line) = LinePath::new(from, to, &job.dynamics.feed_axes) else { continue };
         let block = job.block(i as u64, Path::Line(line), feed);
-        out.extend(stage.push(Block { spline: Some(settings), ..block }, false));
+        out.extend(stage.push(Block { spline: Some(settings), ..block }, &Kernels::default()));
     }
-    out.extend(stage.flush(false));
+    out.extend(stage.flush(&Kernels::default()));
     out
 }
 

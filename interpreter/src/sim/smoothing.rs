@@ -38,7 +38,7 @@ impl Smoothing {
             return;
         }
         self.changed.begin(block.seq);
-        for block in self.splining.push(*block, planner.has_kernels()) {
+        for block in self.splining.push(*block, planner.kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
                 self.changed.add(&block);
                 planner.push(block);
@@ -92,7 +92,7 @@ impl Smoothing {
 
     /// Passes everything to the planner, where the path stops after the last motion.
     pub(super) fn flush(&mut self, planner: &mut Planner) {
-        for block in self.splining.flush(planner.has_kernels()) {
+        for block in self.splining.flush(planner.kernels()) {
             for block in self.contouring.push(block, planner.has_kernels()) {
                 self.changed.add(&block);
                 planner.push(block);

@@ -1,4 +1,5 @@
-//! Whether the spline at a corner takes no longer than the sharp corner.
+//! Whether the spline at a corner takes no longer than the sharp corner, under `AX_DEV` as well if all axes share a filter
+//! without overshoot. Otherwise only the planner knows the speeds, and corners are rounded.
 //!
 //! Each corner is judged separately, with the spline as if all other corners were rounded. For corners with additional
 //! control points, which are independent of each other, this is decisive. At other corners an end of the spline makes
@@ -11,7 +12,8 @@ use super::Splining;
 use super::edge::{Curve, Edge};
 use crate::block::Block;
 use crate::limits::{PathExtremes, PathSpeeds};
-use crate::worth::{Part, Passage};
+use crate::tolerance::Kernels;
+use crate::worth::{Monitored, Part, Passage};
 
 /// Share of the time that an end of the spline at a smooth corner has to save: less may be due to the division into
 /// pieces.
@@ -19,68 +21,91 @@ const GAIN: f64 = 0.01;
 
 impl Splining {
     /// Whether the spline takes no longer than the sharp corner at the start of an edge.
-    pub(super) fn is_worth(&self, corner: usize, kernel_active: bool) -> bool {
+    pub(super) fn is_worth(&self, corner: usize, kernels: &Kernels) -> bool {
         let (from, to) = (&self.run[corner - 1], &self.run[corner]);
         let (a, b) = (&from.as_last(), &to.block);
-        // the speed of a sharp corner under AX_DEV is only known in the planner; an end speed is programmed explicitly
-        let monitored = [a, b].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
-        if monitored || a.end_velocity_mm_s.is_some() {
+        // an end speed is programmed explicitly
+        let Some(passage) = self.passage((a, b), kernels).filter(|_| a.end_velocity_mm_s.is_none())
+        else {
             return true;
-        }
+        };
         // beyond its additional control points the spline coincides with the edge
         let reach = |edge: &Edge| to.corner.e.map_or(0.5 * edge.length, |e| 2.0 * e);
         let (pre_mm, post_mm) = (reach(from), reach(to));
-        let mut around: Vec<Part> = near(from.curves.iter().rev(), pre_mm).collect();
+        let bent = passage.monitored.is_some();
+        let mut around: Vec<Part> = near(from.curves.iter().rev(), pre_mm, bent).collect();
         around.reverse();
-        around.extend(near(to.curves.iter(), post_mm));
-        self.passage((a, b), kernel_active).is_worth(&around, pre_mm, post_mm)
+        around.extend(near(to.curves.iter(), post_mm, bent));
+        let off_mm = to.corner.e.unwrap_or(0.0) / 6.0 * passage.turn();
+        passage.is_worth(&around, [pre_mm, post_mm], off_mm)
     }
 
     /// Whether ending the spline at the start of an edge saves time, although it then bends more next to it.
-    pub(super) fn gains_as_end(&self, corner: usize, round: usize, kernel_active: bool) -> bool {
+    pub(super) fn gains_as_end(&self, corner: usize, round: usize, kernels: &Kernels) -> bool {
         let (from, to) = (self.run[corner - 1].as_last(), &self.run[corner].block);
-        let passage = self.passage((&from, to), kernel_active);
+        let Some(passage) = self.passage((&from, to), kernels) else { return false };
         let time_with = |and: Option<usize>| {
             let known =
                 |i: usize| self.run[i].corner.sharp_since.is_some_and(|since| since < round);
             let is_sharp = |i: &usize| known(*i) || and == Some(*i);
-            let [before, after] = [corner - 1, corner].map(|edge| {
+            let legs = [corner - 1, corner].map(|edge| {
                 let whole = self.span(edge);
                 let span = Self::between(edge, &whole, is_sharp);
                 let edge_at = &self.run[edge];
                 if span == whole {
-                    parts(edge_at, &edge_at.curves)
+                    parts(edge_at, &edge_at.curves, passage.monitored.is_some())
                 } else {
-                    parts(edge_at, &self.curves(edge, &span))
+                    parts(edge_at, &self.curves(edge, &span), passage.monitored.is_some())
                 }
             });
-            let kink = Part { length_mm: 0.0, v_mm_s: passage.sharp_mm_s() };
-            passage.time_s(&[before, and.map(|_| kink).into_iter().collect(), after].concat())
+            passage.time_s(legs, and.is_some())
         };
         time_with(Some(corner)) < (1.0 - GAIN) * time_with(None)
     }
 
-    fn passage<'a>(&self, (from, to): (&'a Block, &'a Block), kernel_active: bool) -> Passage<'a> {
-        Passage { from, bridged: &[], to, cycle: self.cycle, kernel_active }
+    /// `None` if the speed of the sharp corner under `AX_DEV` is only known in the planner.
+    fn passage<'a>(
+        &self,
+        (from, to): (&'a Block, &'a Block),
+        kernels: &'a Kernels,
+    ) -> Option<Passage<'a>> {
+        let cycle = self.cycle;
+        let tolerances = [from, to].into_iter().filter_map(|b| b.tolerance.ax_dev_mm);
+        let monitored = match tolerances.reduce(f64::min).filter(|_| kernels.any()) {
+            Some(tolerance_mm) => Some(Monitored::new(kernels, cycle, tolerance_mm)?),
+            None => None,
+        };
+        let kernel_active = kernels.any();
+        Some(Passage { from, bridged: &[], to, cycle, kernel_active, monitored })
     }
 }
 
-/// The spline over an edge, or the edge itself without one.
-fn parts(edge: &Edge, curves: &[Curve]) -> Vec<Part> {
+/// The spline over an edge, or the edge itself without one; `bent`: with its bends.
+fn parts(edge: &Edge, curves: &[Curve], bent: bool) -> Vec<Part> {
     if curves.is_empty() {
         let speeds = PathSpeeds::of(&edge.block, &PathExtremes::of(&edge.block.path));
         let v_mm_s = speeds.limited(speeds.programmed_mm_s).v_mm_s;
-        return vec![Part { length_mm: edge.length, v_mm_s }];
+        return vec![Part { length_mm: edge.length, v_mm_s, bend: 0.0 }];
     }
-    curves.iter().map(|c| Part { length_mm: c.path.length(), v_mm_s: c.v_mm_s }).collect()
+    curves.iter().map(|curve| part(curve, curve.path.length(), bent)).collect()
+}
+
+fn part(curve: &Curve, length_mm: f64, bent: bool) -> Part {
+    let largest = || curve.path.extremes()[1].iter().copied().fold(0.0, f64::max);
+    let bend = if bent { largest() } else { 0.0 };
+    Part { length_mm, v_mm_s: curve.v_mm_s, bend }
 }
 
 /// The parts of curves within a distance from the start of the first one.
-fn near<'a>(curves: impl Iterator<Item = &'a Curve>, reach_mm: f64) -> impl Iterator<Item = Part> {
+fn near<'a>(
+    curves: impl Iterator<Item = &'a Curve>,
+    reach_mm: f64,
+    bent: bool,
+) -> impl Iterator<Item = Part> {
     let mut left = reach_mm;
     curves.map_while(move |curve| {
         let length_mm = curve.path.length().min(left);
         left -= length_mm;
-        (length_mm > 0.0).then_some(Part { length_mm, v_mm_s: curve.v_mm_s })
+        (length_mm > 0.0).then(|| part(curve, length_mm, bent))
     })
 }

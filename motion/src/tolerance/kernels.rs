@@ -47,6 +47,13 @@ impl Kernels {
         self.longest().map_or(0, Kernel::length)
     }
 
+    /// The kernel that all axes share, without overshoot, and its taps reduced to few: weights, and mean delays in
+    /// cycles. The speed at a corner is then known before any trial.
+    pub(crate) fn shared(&self) -> Option<(&Kernel, &[(f64, f64)])> {
+        let kernel = self.longest().filter(|_| !self.unequal && !self.overshoot)?;
+        Some((kernel, self.coarse.first()?))
+    }
+
     /// Whether the axes have different kernels.
     pub(crate) fn differ(&self) -> bool {
         self.unequal

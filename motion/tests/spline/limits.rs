@@ -87,9 +87,12 @@ fn a_programmed_duration_is_kept() {
             let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
             let spline = Some(SplineSettings::default());
             let feed = Feed::Duration(1.0 + i as f64);
-            out.extend(stage.push(Block { spline, feed, ..job.block(i as u64, path, 1.0) }, false));
+            out.extend(stage.push(
+                Block { spline, feed, ..job.block(i as u64, path, 1.0) },
+                &Kernels::default(),
+            ));
         }
-        out.extend(stage.flush(false));
+        out.extend(stage.flush(&Kernels::default()));
         for own in out.chunk_by(|a, b| a.seq == b.seq) {
             let seconds = |b: &Block| if let Feed::Duration(t) = b.feed { t } else { f64::NAN };
             let (sum, expected) = (own.iter().map(seconds).sum::<f64>(), 1.0 + own[0].seq as f64);

@@ -1,0 +1,72 @@
+//! Corners of a spline under `AX_DEV`.
+
+use super::*;
+use kontur_filters::vib_guard::VibGuardSettings;
+use kontur_motion::block::Tolerance;
+
+/// Straight lines in chords of 0.1 to 0.6 mm, with corners of 30 to 140 degrees between them.
+fn lines(seed: u64) -> Vec<Vec<f64>> {
+    let mut random = Random::from_state(seed);
+    let (mut heading, mut p) = (0.0, [0.0, 0.0]);
+    let mut points = vec![p.to_vec()];
+    for _ in 0..3 {
+        let chord = 0.1 + 0.5 * random.ratio();
+        for _ in 0..5 + (6.0 * random.ratio()) as usize {
+            let (sin, cos) = libm::sincos(heading);
+            p = [p[0] + chord * cos, p[1] + chord * sin];
+            points.push(p.to_vec());
+        }
+        let side = if random.ratio() < 0.5 { -1.0 } else { 1.0 };
+        heading += side * (30.0 + 110.0 * random.ratio()).to_radians();
+    }
+    points
+}
+
+fn guarded(kind: SlopeKind, freq_hz: f64, ax_dev_mm: Option<f64>) -> Job {
+    let guard = VibGuardSettings { mode: 2, freq_hz, damping: 0.1 };
+    let mut job = Job::new(1.0, kind);
+    job.slope.optimised = kind == Trapez;
+    job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
+    job.tolerance = Tolerance { ax_dev_mm, ..Tolerance::default() };
+    job
+}
+
+/// A spline that rounds corners takes no longer than the polygon, at whose corners the path may stop until the filters
+/// have settled.
+#[test]
+fn rounding_costs_no_time_under_ax_dev() {
+    let count = environment("COUNT", 2);
+    for (kind, freq_hz, ax_dev_mm) in [(Hsc, 40.0, 0.01), (Trapez, 25.0, 0.005)] {
+        let job = guarded(kind, freq_hz, Some(ax_dev_mm));
+        for seed in 300..300 + count {
+            let points = lines(seed);
+            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+            let sharp = job.drive(&views, &[50.0]).len();
+            for path_dev_mm in [0.01, 0.1] {
+                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                let blocks = splined(&job, settings, &points, 50.0);
+                let round = job.run(&points[0], blocks.into_iter()).len();
+                println!("{kind:?} {seed} {path_dev_mm}: {round} of {sharp}");
+                let most = sharp + sharp / 200 + 1;
+                assert!(round <= most, "{kind:?} {seed} {path_dev_mm}: {round} of {sharp} cycles");
+            }
+        }
+    }
+}
+
+/// A tolerance that no corner could exceed changes nothing.
+#[test]
+fn a_large_ax_dev_keeps_every_curve() {
+    for shape in [ROUGH, GENTLE, EVEN, SQUARES] {
+        for seed in 0..5 {
+            let points = polygon(shape, seed, 60);
+            let settings = SplineSettings { path_dev_mm: 0.05, ..SplineSettings::default() };
+            let blocks = |ax_dev_mm: Option<f64>| {
+                let job = guarded(Hsc, 40.0, ax_dev_mm);
+                let blocks = splined(&job, settings, &points, 50.0);
+                blocks.iter().map(|b| (b.seq, b.path.length().to_bits())).collect::<Vec<_>>()
+            };
+            assert!(blocks(None) == blocks(Some(100.0)), "{seed}");
+        }
+    }
+}
