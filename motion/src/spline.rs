@@ -330,6 +330,12 @@ impl Splining {
                 stretch.put_out(&mut self.ready);
             }
         }
+        if self.run.get(edge + 1).is_some_and(|next| next.corner.sharp_since.is_some())
+            && let Some(last) = self.ready.last_mut()
+        {
+            // nor is it rounded by contouring, which has another tolerance
+            last.contour = None;
+        }
         self.done += 1;
         if self.done > BEHIND {
             self.run.pop_front();

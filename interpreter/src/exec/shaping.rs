@@ -131,8 +131,10 @@ impl ShapingState {
     /// An axis exchange: a guard of the program is switched off, those of the lists continue with their own values (TF5250,
     /// axis exchange commands). The keys of the program stay for its next command. False if nothing changes.
     pub(super) fn exchange_axes(&mut self) -> bool {
-        let changes =
-            self.guard_on.take().is_some() || self.guard_in_force() != GuardKeys::default();
+        let of_guard = self.used.as_ref().is_some_and(|(family, _)| *family == Family::VibGuard);
+        let changes = self.guard_on.take().is_some()
+            || self.guard_in_force() != GuardKeys::default()
+            || of_guard && self.ax_dev_mm.is_some();
         self.exchanged = true;
         if changes {
             self.ax_dev_mm = None;

@@ -49,9 +49,9 @@ struct Departure {
 }
 
 impl Departure {
-    /// As fast as the side permits from `v` on, on an edge as long as that takes.
+    /// As fast as the side permits from `v` on, up to the speed in its middle.
     fn new(side: &Side, v: f64) -> Self {
-        let (slope, to) = (&side.slope, side.v_mm_s.max(v));
+        let (slope, to) = (&side.slope, side.leg(v, side.v_mm_s, side.half_mm).0.max(v));
         let profile = if side.before {
             slope.plan(to, v, to, slope.down_distance(to, v))
         } else {
@@ -129,10 +129,13 @@ impl<'a> Monitored<'a> {
         (2.0 * self.tolerance_mm / (spread_s2 * bend.max(1e-9))).sqrt()
     }
 
-    /// The parts of a curve, which comes within `off_mm` of a corner, at speeds that keep the tolerance.
+    /// The parts of a curve, which comes within `off_mm` of a corner, at speeds that keep the tolerance: as a corner, if the
+    /// filter holds more than the curve, or by their bends.
     pub(super) fn limited(&self, parts: &[Part], turn: f64, off_mm: f64) -> Vec<Part> {
         let m1_s = self.kernel.m1_cycles() * self.cycle.seconds();
         let as_corner = (self.tolerance_mm + off_mm) / (m1_s * turn);
+        let length_mm: f64 = parts.iter().map(|part| part.length_mm).sum();
+        let as_corner = if length_mm < as_corner * self.reach_s() { as_corner } else { 0.0 };
         let of = |part: &Part| {
             let v_mm_s = part.v_mm_s.min(self.on_a_bend(part.bend).max(as_corner));
             Part { v_mm_s, ..*part }

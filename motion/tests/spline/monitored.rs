@@ -22,8 +22,8 @@ fn lines(seed: u64) -> Vec<Vec<f64>> {
     points
 }
 
-fn guarded(kind: SlopeKind, freq_hz: f64, ax_dev_mm: Option<f64>) -> Job {
-    let guard = VibGuardSettings { mode: 2, freq_hz, damping: 0.1 };
+fn guarded(kind: SlopeKind, (mode, freq_hz): (u8, f64), ax_dev_mm: Option<f64>) -> Job {
+    let guard = VibGuardSettings { mode, freq_hz, damping: 0.1 };
     let mut job = Job::new(1.0, kind);
     job.slope.optimised = kind == Trapez;
     job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
@@ -37,7 +37,7 @@ fn guarded(kind: SlopeKind, freq_hz: f64, ax_dev_mm: Option<f64>) -> Job {
 fn rounding_costs_no_time_under_ax_dev() {
     let count = environment("COUNT", 2);
     for (kind, freq_hz, ax_dev_mm) in [(Hsc, 40.0, 0.01), (Trapez, 25.0, 0.005)] {
-        let job = guarded(kind, freq_hz, Some(ax_dev_mm));
+        let job = guarded(kind, (2, freq_hz), Some(ax_dev_mm));
         for seed in 300..300 + count {
             let points = lines(seed);
             let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
@@ -54,6 +54,29 @@ fn rounding_costs_no_time_under_ax_dev() {
     }
 }
 
+/// The same at single corners between edges of equal length, from nearly straight to nearly reversed.
+#[test]
+fn rounding_a_single_corner_costs_no_time_under_ax_dev() {
+    for (guard, ax_dev_mm) in [((3, 25.0), 0.002), ((2, 40.0), 0.01), ((1, 15.0), 0.02)] {
+        let job = guarded(Hsc, guard, Some(ax_dev_mm));
+        for (edge, degrees) in [(3.0, 8.0), (3.0, 45.0), (12.0, 14.0), (12.0, 90.0), (12.0, 140.0)]
+        {
+            let (sin, cos) = libm::sincos(f64::to_radians(degrees));
+            let points =
+                [[0.0, 0.0], [edge, 0.0], [edge + edge * cos, edge * sin]].map(|p| p.to_vec());
+            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+            let sharp = job.drive(&views, &[50.0]).len();
+            for path_dev_mm in [0.02, 0.1] {
+                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+                let blocks = splined(&job, settings, &points, 50.0);
+                let round = job.run(&points[0], blocks.into_iter()).len();
+                let name = format!("{guard:?} {edge} {degrees} {path_dev_mm}");
+                assert!(round <= sharp + sharp / 200 + 1, "{name}: {round} of {sharp} cycles");
+            }
+        }
+    }
+}
+
 /// A tolerance that no corner could exceed changes nothing.
 #[test]
 fn a_large_ax_dev_keeps_every_curve() {
@@ -62,7 +85,7 @@ fn a_large_ax_dev_keeps_every_curve() {
             let points = polygon(shape, seed, 60);
             let settings = SplineSettings { path_dev_mm: 0.05, ..SplineSettings::default() };
             let blocks = |ax_dev_mm: Option<f64>| {
-                let job = guarded(Hsc, 40.0, ax_dev_mm);
+                let job = guarded(Hsc, (2, 40.0), ax_dev_mm);
                 let blocks = splined(&job, settings, &points, 50.0);
                 blocks.iter().map(|b| (b.seq, b.path.length().to_bits())).collect::<Vec<_>>()
             };

@@ -224,7 +224,7 @@ fn exchange(decoder: &mut Decoder, span: Span) -> Outcome<()> {
             let text = match programmed {
                 Some(_) => "the axis exchange switches the Vibration Guard of the program off",
                 None => {
-                    "after the axis exchange the Vibration Guard has the values of the axis lists"
+                    "after the axis exchange the Vibration Guard has the values of the axis lists, without AX_DEV"
                 }
             };
             let hint = "program #VIB GUARD ON again after it";

@@ -138,10 +138,13 @@ pub(in crate::exec) fn read_all(
     let items: &[Item] = group.map_or(&[], |g| &g.items);
     let mut at = 0;
     while let Some(item) = items.get(at) {
-        if let Some((intended, fault)) =
-            items[..at].last().and_then(|before| decimal_comma(before, item))
+        if let Some(before) = items[..at].last()
+            && let Some((intended, fault)) = decimal_comma(before, item)
         {
-            found.correct(intended);
+            // a value of 0 may switch off what the fraction does not; a whole one is good enough to go on with
+            if intended < 1.0 {
+                found.correct(before.span, intended);
+            }
             decoder.report.note(fault);
             at += 1;
             continue;

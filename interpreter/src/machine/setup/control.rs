@@ -47,6 +47,7 @@ pub(super) fn config(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> AxisCont
     let drive = Drive::of(axis);
     let feedforward = feedforward(axis, drive, diagnostics);
     without_effect(axis, drive, diagnostics);
+    masses(axis, diagnostics);
     let command_format = match drive {
         Drive::Conventional | Drive::Simulated => SpeedFormat::Gain(quotient(
             axis,
@@ -136,6 +137,14 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
             }
         }
     }
+}
+
+/// Reports a mass of TWO_MASS that is no share of the whole.
+fn masses(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) {
+    let Some(place) = plant::no_share(axis) else { return };
+    let what = "a mass alone is a share of the whole, below 1";
+    let about = issues::about(axis, Condition::ListRange, place, what, "equal masses are used");
+    diagnostics.push(about.hint("write mass_motor and mass_load, of which the ratio counts"));
 }
 
 /// Quotient of two parameters in the units of the list.

@@ -129,9 +129,10 @@ impl Found {
         self.found.push((key, written, at));
     }
 
-    /// Replaces the number of the last key, if it has one.
-    pub(super) fn correct(&mut self, number: f64) {
-        if let Some((_, Written::Number(last), _)) = self.found.last_mut() {
+    /// Replaces the number of the key written there, if there is one.
+    pub(super) fn correct(&mut self, at: Span, number: f64) {
+        let written = self.found.iter_mut().find(|(.., span)| *span == at);
+        if let Some((_, Written::Number(last), _)) = written {
             *last = number;
         }
     }
