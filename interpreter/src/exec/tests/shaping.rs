@@ -53,7 +53,13 @@ fn keys_outlast_an_axis_exchange() {
     let run = on("G90 F100\n#VIB GUARD [FREQ=20]\nX1\n#PUT AX [Z]\nX2\n#VIB GUARD\nX3", &listed);
     let frequencies: Vec<_> = setups(&run).iter().map(|setup| guard(setup)).collect();
     assert_eq!(frequencies, [(3, 20.0, 0.1), (3, 50.0, 0.1), (3, 20.0, 0.1)]);
-    assert!(run.diagnostics.iter().any(|d| d.id.to_string() == "K-0102"));
+    let told = |run: &Run| run.diagnostics.iter().any(|d| d.id.to_string() == "K-0102");
+    assert!(told(&run));
+    // AX_DEV alone is dropped as well: the lists have none
+    let run = on("G90 F100\n#VIB GUARD [AX_DEV=0.01]\nX1\n#PUT AX [Z]\nX2", &listed);
+    let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
+    assert_eq!(tolerances, [Some(0.01), None]);
+    assert!(told(&run));
 }
 
 #[test]
