@@ -31,25 +31,28 @@ fn guarded(kind: SlopeKind, (mode, freq_hz): (u8, f64), ax_dev_mm: Option<f64>) 
     job
 }
 
-/// A spline that rounds corners takes no longer than the polygon, at whose corners the path may stop until the filters
+/// The spline through these points takes no longer than the polygon, at whose corners the path may stop until the filters
 /// have settled.
+fn costs_no_time(name: &str, job: &Job, points: &[Vec<f64>], tolerances_mm: [f64; 2]) {
+    let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+    let sharp = job.drive(&views, &[50.0]).len();
+    for path_dev_mm in tolerances_mm {
+        let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
+        let blocks = splined(job, settings, points, 50.0);
+        let round = job.run(&points[0], blocks.into_iter()).len();
+        println!("{name} {path_dev_mm}: {round} of {sharp}");
+        let most = sharp + sharp / 200 + 1;
+        assert!(round <= most, "{name} {path_dev_mm}: {round} of {sharp} cycles");
+    }
+}
+
 #[test]
 fn rounding_costs_no_time_under_ax_dev() {
     let count = environment("COUNT", 2);
     for (kind, freq_hz, ax_dev_mm) in [(Hsc, 40.0, 0.01), (Trapez, 25.0, 0.005)] {
         let job = guarded(kind, (2, freq_hz), Some(ax_dev_mm));
         for seed in 300..300 + count {
-            let points = lines(seed);
-            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-            let sharp = job.drive(&views, &[50.0]).len();
-            for path_dev_mm in [0.01, 0.1] {
-                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-                let blocks = splined(&job, settings, &points, 50.0);
-                let round = job.run(&points[0], blocks.into_iter()).len();
-                println!("{kind:?} {seed} {path_dev_mm}: {round} of {sharp}");
-                let most = sharp + sharp / 200 + 1;
-                assert!(round <= most, "{kind:?} {seed} {path_dev_mm}: {round} of {sharp} cycles");
-            }
+            costs_no_time(&format!("{kind:?} {seed}"), &job, &lines(seed), [0.01, 0.1]);
         }
     }
 }
@@ -64,15 +67,8 @@ fn rounding_a_single_corner_costs_no_time_under_ax_dev() {
             let (sin, cos) = libm::sincos(f64::to_radians(degrees));
             let points =
                 [[0.0, 0.0], [edge, 0.0], [edge + edge * cos, edge * sin]].map(|p| p.to_vec());
-            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-            let sharp = job.drive(&views, &[50.0]).len();
-            for path_dev_mm in [0.02, 0.1] {
-                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-                let blocks = splined(&job, settings, &points, 50.0);
-                let round = job.run(&points[0], blocks.into_iter()).len();
-                let name = format!("{guard:?} {edge} {degrees} {path_dev_mm}");
-                assert!(round <= sharp + sharp / 200 + 1, "{name}: {round} of {sharp} cycles");
-            }
+            let name = format!("{guard:?} {edge} {degrees}");
+            costs_no_time(&name, &job, &points, [0.02, 0.1]);
         }
     }
 }

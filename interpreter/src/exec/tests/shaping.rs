@@ -60,6 +60,12 @@ fn keys_outlast_an_axis_exchange() {
     let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
     assert_eq!(tolerances, [Some(0.01), None]);
     assert!(told(&run));
+    // a FIR filter is none of the guard
+    let fir = ["X,Y,Z.filter_fir.type=1"];
+    let run = on("G90 F100\n#FILTER ON [ORDER=20 AX_DEV=0.01]\nX1\n#PUT AX [Z]\nX2", &fir);
+    let tolerances: Vec<_> = run.blocks().iter().map(|b| b.tolerance.ax_dev_mm).collect();
+    assert_eq!(tolerances, [Some(0.01), Some(0.01)]);
+    assert!(!told(&run));
 }
 
 #[test]

@@ -96,35 +96,31 @@ fn model(axis: &Axis) -> PlantModel {
     }
 }
 
-/// The mass of TWO_MASS that is set without the other one.
-fn mass_alone(axis: &Axis) -> Option<Param<Number>> {
-    let is_set = |mass: Param<Number>| axis.set_by(mass.at(axis.number())).is_some();
-    match (is_set(of::MASS_MOTOR), is_set(of::MASS_LOAD)) {
-        (true, false) => Some(of::MASS_MOTOR),
-        (false, true) => Some(of::MASS_LOAD),
-        _ => None,
-    }
+/// The masses of TWO_MASS that are set, of the motor and of the load.
+fn masses(axis: &Axis) -> [Option<f64>; 2] {
+    [of::MASS_MOTOR, of::MASS_LOAD]
+        .map(|mass| axis.set_by(mass.at(axis.number())).map(|_| axis.get(mass)))
 }
 
 /// The mass of TWO_MASS that is set alone, but is no share of the whole; equal masses replace it.
 pub(super) fn no_share(axis: &Axis) -> Option<Place> {
+    let mass = match masses(axis) {
+        [Some(motor), None] if motor >= 1.0 => of::MASS_MOTOR,
+        [None, Some(load)] if load >= 1.0 => of::MASS_LOAD,
+        _ => return None,
+    };
     let is_two_mass = axis.get(of::PLANT_MODEL).as_deref() == Some("TWO_MASS");
-    let mass = mass_alone(axis).filter(|mass| is_two_mass && axis.get(*mass) >= 1.0)?;
-    Some(mass.at(axis.number()).place())
+    is_two_mass.then(|| mass.at(axis.number()).place())
 }
 
-/// Ratio of the masses of TWO_MASS. One alone is a share of the whole, and the other side has the rest.
+/// Ratio of the masses of TWO_MASS. One alone is a share of the whole, and the other side has the rest; without any,
+/// they are equal.
 fn load_to_motor(axis: &Axis) -> f64 {
-    if no_share(axis).is_some() {
-        return 1.0;
-    }
-    let [motor, load] = [of::MASS_MOTOR, of::MASS_LOAD].map(|mass| axis.get(mass));
-    match mass_alone(axis) {
-        None => load / motor,
-        Some(mass) if mass.place().row.key == of::MASS_MOTOR.place().row.key => {
-            (1.0 - motor) / motor
-        }
-        Some(_) => load / (1.0 - load),
+    match masses(axis) {
+        [Some(motor), Some(load)] => load / motor,
+        [Some(motor), None] if motor < 1.0 => (1.0 - motor) / motor,
+        [None, Some(load)] if load < 1.0 => load / (1.0 - load),
+        _ => 1.0,
     }
 }
 
