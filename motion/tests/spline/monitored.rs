@@ -40,7 +40,6 @@ fn costs_no_time(name: &str, job: &Job, points: &[Vec<f64>], tolerances_mm: [f64
         let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
         let blocks = splined(job, settings, points, 50.0);
         let round = job.run(&points[0], blocks.into_iter()).len();
-        println!("{name} {path_dev_mm}: {round} of {sharp}");
         let most = sharp + sharp / 200 + 1;
         assert!(round <= most, "{name} {path_dev_mm}: {round} of {sharp} cycles");
     }
