@@ -128,7 +128,7 @@ fn smoothing(c: &mut Criterion) {
         b.iter(|| {
             let mut stage = Contouring::new(CycleTime::DEFAULT);
             for block in &rounded {
-                for out in stage.push(block.clone(), false) {
+                for out in stage.push(block.clone(), &Kernels::default()) {
                     black_box(out);
                 }
             }

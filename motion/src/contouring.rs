@@ -16,12 +16,14 @@
 //! # use kontur_filters::time::CycleTime;
 //! use kontur_motion::block::{ContourMode, ContourSettings};
 //! use kontur_motion::contouring::Contouring;
+//! use kontur_motion::tolerance::Kernels;
 //!
 //! let mut stage = Contouring::new(CycleTime::DEFAULT);
 //! let mut first = block(1, [0.0, 0.0], [10.0, 0.0], 100.0);
 //! first.contour = Some(ContourSettings::default());
-//! assert_eq!(stage.push(first, false).count(), 0);
-//! let rounded: Vec<Block> = stage.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0), false).collect();
+//! let none = Kernels::default();
+//! assert_eq!(stage.push(first, &none).count(), 0);
+//! let rounded: Vec<Block> = stage.push(block(2, [10.0, 0.0], [10.0, 10.0], 100.0), &none).collect();
 //! // what is left of the first block, then the first half of the curve in its name
 //! assert!(rounded[0].path.is_straight() && !rounded[1].path.is_straight());
 //! let limit = rounded.iter().position(|b| b.seq == 2).unwrap();
@@ -38,7 +40,9 @@ mod parts;
 mod rounding;
 
 use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, Feed};
-use crate::worth::{Part, Passage};
+use crate::path::Path;
+use crate::tolerance::Kernels;
+use crate::worth::{Monitored, Part, Passage};
 use kontur_filters::time::CycleTime;
 use parts::Parts;
 pub(crate) use rounding::NEEDLE_RAD;
@@ -99,10 +103,14 @@ impl Contouring {
         block.contour.is_none() && self.held.is_none()
     }
 
-    /// Takes a block and returns the final ones. `kernel_active`: an axis is filtered, so `ACC_FACT` applies at
+    /// Takes a block and returns the final ones. `kernels`: the filters of the axes, for `ACC_FACT` and `AX_DEV` at
     /// corners.
-    pub fn push(&mut self, block: Block, kernel_active: bool) -> impl Iterator<Item = Block> + '_ {
-        self.take(block, kernel_active);
+    pub fn push<'a>(
+        &'a mut self,
+        block: Block,
+        kernels: &Kernels,
+    ) -> impl Iterator<Item = Block> + use<'a> {
+        self.take(block, kernels);
         self.ready.drain(..)
     }
 
@@ -119,8 +127,8 @@ impl Contouring {
 
     /// As [`Self::push`] after [`Self::stop_here`]: the blocks before the stop, and those after it. Both are empty while the
     /// block after the corner is not known.
-    pub fn push_behind_stop(&mut self, block: Block, kernel_active: bool) -> [Vec<Block>; 2] {
-        self.take(block, kernel_active);
+    pub fn push_behind_stop(&mut self, block: Block, kernels: &Kernels) -> [Vec<Block>; 2] {
+        self.take(block, kernels);
         self.parted()
     }
 
@@ -167,7 +175,7 @@ impl Contouring {
         self.notices.push(Notice { seq, reason });
     }
 
-    fn take(&mut self, block: Block, kernel_active: bool) {
+    fn take(&mut self, block: Block, kernels: &Kernels) {
         let waits = self.held.take().and_then(|held| Some((held.block.contour?, held)));
         let Some((settings, held)) = waits else {
             self.hold(Held { block, from: 0.0 });
@@ -180,7 +188,7 @@ impl Contouring {
         }
         let seq = held.block.seq;
         let mut from = 0.0;
-        match self.rounded(&held, &block, &settings, kernel_active) {
+        match self.rounded(&held, &block, &settings, kernels) {
             Ok(Some((curve, parts))) => {
                 let soft = matches!(
                     settings.mode,
@@ -214,30 +222,36 @@ impl Contouring {
         held: &Held,
         block: &Block,
         settings: &ContourSettings,
-        kernel_active: bool,
+        kernels: &Kernels,
     ) -> Result<Option<(Curve, Parts)>, NoContour> {
         let Some(curve) = curve(held, &self.skipped, block, settings)? else { return Ok(None) };
         let parts = self.parts(&held.block, block, &curve, settings);
+        // an interim point and an end speed are programmed explicitly
+        let demanded = matches!(settings.mode, ContourMode::Pos { .. })
+            || held.block.end_velocity_mm_s.is_some();
+        let around = [&held.block, block];
+        let known = Monitored::between(around, kernels, self.cycle).filter(|_| !demanded);
+        // otherwise only the planner knows the speed of the sharp corner under AX_DEV
+        let Some(monitored) = known else { return Ok(Some((curve, parts))) };
         let passage = Passage {
             from: &held.block,
             bridged: &self.skipped,
             to: block,
             cycle: self.cycle,
-            kernel_active,
-            monitored: None,
+            kernel_active: kernels.any(),
+            monitored,
         };
-        // only the planner knows the speed of a sharp corner under AX_DEV; an interim point and an end speed are
-        // programmed explicitly
-        let monitored = [&held.block, block].iter().any(|b| b.tolerance.ax_dev_mm.is_some());
-        let demanded = matches!(settings.mode, ContourMode::Pos { .. })
-            || held.block.end_velocity_mm_s.is_some();
-        let timed = |(block, v_mm_s): &(Block, f64)| Part {
-            length_mm: block.path.length(),
-            v_mm_s: *v_mm_s,
-            bend: 0.0,
+        let bent = passage.monitored.is_some();
+        let timed = |(block, v_mm_s): &(Block, f64)| match &block.path {
+            Path::Curve(path) => Some(Part::of(path, path.length(), *v_mm_s, bent)),
+            _ => None,
         };
-        let timed: Vec<Part> = parts.iter().map(timed).collect();
-        if monitored || demanded || passage.is_worth(&timed, [curve.pre_mm, curve.post_mm], 0.0) {
+        let timed: Vec<Part> = parts.iter().filter_map(timed).collect();
+        let corner = held.block.path.end();
+        let interim = curve.blend.interim();
+        let off = corner.iter().zip(interim.iter()).map(|(c, i)| (i - c).abs());
+        let off_mm = off.fold(0.0, f64::max);
+        if passage.is_worth(&timed, [curve.pre_mm, curve.post_mm], off_mm) {
             Ok(Some((curve, parts)))
         } else {
             Err(NoContour::Slower)

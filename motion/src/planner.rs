@@ -183,11 +183,6 @@ impl Planner {
         });
     }
 
-    /// Whether the set positions of any axis are filtered, see [`Self::set_kernels`].
-    pub fn has_kernels(&self) -> bool {
-        self.kernels.any()
-    }
-
     /// The kernels, see [`Self::set_kernels`].
     pub fn kernels(&self) -> &Kernels {
         &self.kernels

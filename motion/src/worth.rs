@@ -13,6 +13,7 @@ mod monitored;
 use crate::block::Block;
 use crate::junction::{Ends, transition};
 use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
+use crate::path::PolyPath;
 use crate::profile::SlopeLimits;
 use kontur_filters::time::CycleTime;
 pub(crate) use monitored::Monitored;
@@ -32,6 +33,14 @@ pub(crate) struct Part {
     pub(crate) v_mm_s: f64,
     /// Largest second derivative of an axis in 1/mm, if `AX_DEV` applies.
     pub(crate) bend: f64,
+}
+
+impl Part {
+    /// A part of a curve in `length_mm` of a path; `bent`: `AX_DEV` applies.
+    pub(crate) fn of(path: &PolyPath, length_mm: f64, v_mm_s: f64, bent: bool) -> Self {
+        let largest = || path.extremes()[1].iter().copied().fold(0.0, f64::max);
+        Self { length_mm, v_mm_s, bend: if bent { largest() } else { 0.0 } }
+    }
 }
 
 /// A block next to the corner, seen from the corner: speed rises with the distance from it on either side.

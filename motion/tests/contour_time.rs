@@ -13,6 +13,7 @@ use kontur_motion::block::{Block, ContourMode, ContourSettings, SlopeKind};
 use kontur_motion::contouring::Contouring;
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
 const CYCLE_US: u32 = 1000;
@@ -81,7 +82,7 @@ fn rounded(job: &Job, paths: &[Path], settings: ContourSettings, feeds: &[f64]) 
     let mut stage = Contouring::new(CycleTime::from_us(CYCLE_US).unwrap());
     let mut out = Vec::new();
     for block in programmed(job, paths, feeds) {
-        out.extend(stage.push(Block { contour: Some(settings), ..block }, false));
+        out.extend(stage.push(Block { contour: Some(settings), ..block }, &Kernels::default()));
     }
     out.extend(stage.flush());
     out

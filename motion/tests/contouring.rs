@@ -14,6 +14,7 @@ use kontur_motion::block::{Block, ContourMode, ContourSettings, CurveJerk, Feed,
 use kontur_motion::contouring::{Contouring, NoContour, Notice};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
 fn line(from: &[f64], to: &[f64]) -> Path {
@@ -56,7 +57,12 @@ fn contoured_at(
     let mut out = Vec::new();
     for (i, path) in paths.into_iter().enumerate() {
         let contour = Some(settings);
-        out.extend(stage.push(Block { contour, ..job.block(i as u64, path, feed_mm_s) }, false));
+        out.extend(
+            stage.push(
+                Block { contour, ..job.block(i as u64, path, feed_mm_s) },
+                &Kernels::default(),
+            ),
+        );
     }
     out.extend(stage.flush());
     (out, stage.take_notices())

@@ -139,14 +139,15 @@ impl Contour {
     /// A motion.
     pub(super) fn motion(&mut self, motion: Box<Motion>) -> Vec<Fault> {
         self.stopped_exactly = false;
-        self.akima.moved |= !motion.akima;
         if !motion.akima && !self.akima.runs() {
+            self.akima.pass(&motion);
             return self.joined(motion);
         }
         let mut curves = Vec::new();
         let (outcome, behind) = if motion.akima {
             (self.akima.point(motion, self.held.as_deref(), &mut curves), None)
         } else {
+            self.akima.moved = true;
             (self.akima.finish(Some(&motion), &mut curves), Some(motion))
         };
         let mut faults = self.splined(curves, outcome);

@@ -39,7 +39,7 @@ impl Smoothing {
         }
         self.changed.begin(block.seq);
         for block in self.splining.push(*block, planner.kernels()) {
-            for block in self.contouring.push(block, planner.has_kernels()) {
+            for block in self.contouring.push(block, planner.kernels()) {
                 self.changed.add(&block);
                 planner.push(block);
             }
@@ -61,7 +61,7 @@ impl Smoothing {
     /// motion is to be pushed in the same way.
     pub(super) fn push_behind_stop(&mut self, block: Box<Block>, planner: &mut Planner) -> bool {
         self.changed.begin(block.seq);
-        let parted = self.contouring.push_behind_stop(*block, planner.has_kernels());
+        let parted = self.contouring.push_behind_stop(*block, planner.kernels());
         let found = parted.iter().any(|blocks| !blocks.is_empty());
         self.part(parted, planner);
         found
@@ -93,7 +93,7 @@ impl Smoothing {
     /// Passes everything to the planner, where the path stops after the last motion.
     pub(super) fn flush(&mut self, planner: &mut Planner) {
         for block in self.splining.flush(planner.kernels()) {
-            for block in self.contouring.push(block, planner.has_kernels()) {
+            for block in self.contouring.push(block, planner.kernels()) {
                 self.changed.add(&block);
                 planner.push(block);
             }

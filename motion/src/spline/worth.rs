@@ -70,11 +70,7 @@ impl Splining {
         kernels: &'a Kernels,
     ) -> Option<Passage<'a>> {
         let cycle = self.cycle;
-        let tolerances = [from, to].into_iter().filter_map(|b| b.tolerance.ax_dev_mm);
-        let monitored = match tolerances.reduce(f64::min).filter(|_| kernels.any()) {
-            Some(tolerance_mm) => Some(Monitored::new(kernels, cycle, tolerance_mm)?),
-            None => None,
-        };
+        let monitored = Monitored::between([from, to], kernels, cycle)?;
         let kernel_active = kernels.any();
         Some(Passage { from, bridged: &[], to, cycle, kernel_active, monitored })
     }
@@ -87,13 +83,8 @@ fn parts(edge: &Edge, curves: &[Curve], bent: bool) -> Vec<Part> {
         let v_mm_s = speeds.limited(speeds.programmed_mm_s).v_mm_s;
         return vec![Part { length_mm: edge.length, v_mm_s, bend: 0.0 }];
     }
-    curves.iter().map(|curve| part(curve, curve.path.length(), bent)).collect()
-}
-
-fn part(curve: &Curve, length_mm: f64, bent: bool) -> Part {
-    let largest = || curve.path.extremes()[1].iter().copied().fold(0.0, f64::max);
-    let bend = if bent { largest() } else { 0.0 };
-    Part { length_mm, v_mm_s: curve.v_mm_s, bend }
+    let part = |curve: &Curve| Part::of(&curve.path, curve.path.length(), curve.v_mm_s, bent);
+    curves.iter().map(part).collect()
 }
 
 /// The parts of curves within a distance from the start of the first one.
@@ -106,6 +97,6 @@ fn near<'a>(
     curves.map_while(move |curve| {
         let length_mm = curve.path.length().min(left);
         left -= length_mm;
-        (length_mm > 0.0).then(|| part(curve, length_mm, bent))
+        (length_mm > 0.0).then(|| Part::of(&curve.path, length_mm, curve.v_mm_s, bent))
     })
 }

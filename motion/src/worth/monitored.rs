@@ -16,6 +16,7 @@
 //! The planner does not use these speeds: it measures every plan.
 
 use super::{Part, Side};
+use crate::block::Block;
 use crate::profile::Profile;
 use crate::tolerance::Kernels;
 use kontur_filters::kernel::Kernel;
@@ -23,6 +24,9 @@ use kontur_filters::time::CycleTime;
 
 /// Halvings in the search for a time or a speed.
 const HALVINGS: u32 = 12;
+/// Number of times that a curve fits into the filter, from which on it counts as a corner. Assumption: in between, the speed
+/// that its bends permit is the safer estimate.
+const AS_CORNER: f64 = 2.0;
 
 /// A filter that all axes share, and the tolerance in mm at a corner.
 #[derive(Clone, Copy, Debug)]
@@ -76,8 +80,21 @@ impl Departure {
 }
 
 impl<'a> Monitored<'a> {
-    /// `None` if the speed at a corner is only known to the planner.
-    pub(crate) fn new(kernels: &'a Kernels, cycle: CycleTime, tolerance_mm: f64) -> Option<Self> {
+    /// The tolerance at the corner between two blocks, if one applies; `None` if the speed at the corner is only known to
+    /// the planner.
+    pub(crate) fn between(
+        blocks: [&Block; 2],
+        kernels: &'a Kernels,
+        cycle: CycleTime,
+    ) -> Option<Option<Self>> {
+        let tolerances = blocks.into_iter().filter_map(|b| b.tolerance.ax_dev_mm);
+        match tolerances.reduce(f64::min).filter(|_| kernels.any()) {
+            Some(tolerance_mm) => Some(Some(Self::new(kernels, cycle, tolerance_mm)?)),
+            None => Some(None),
+        }
+    }
+
+    fn new(kernels: &'a Kernels, cycle: CycleTime, tolerance_mm: f64) -> Option<Self> {
         let (kernel, taps) = kernels.shared()?;
         Some(Self { kernel, taps, cycle, tolerance_mm })
     }
@@ -130,12 +147,13 @@ impl<'a> Monitored<'a> {
     }
 
     /// The parts of a curve, which comes within `off_mm` of a corner, at speeds that keep the tolerance: as a corner, if the
-    /// filter holds more than the curve, or by their bends.
+    /// filter holds at least [`AS_CORNER`] times as much as the curve takes, or by their bends.
     pub(super) fn limited(&self, parts: &[Part], turn: f64, off_mm: f64) -> Vec<Part> {
         let m1_s = self.kernel.m1_cycles() * self.cycle.seconds();
         let as_corner = (self.tolerance_mm + off_mm) / (m1_s * turn);
-        let length_mm: f64 = parts.iter().map(|part| part.length_mm).sum();
-        let as_corner = if length_mm < as_corner * self.reach_s() { as_corner } else { 0.0 };
+        let held_s: f64 =
+            parts.iter().map(|part| part.length_mm / part.v_mm_s.min(as_corner)).sum();
+        let as_corner = if AS_CORNER * held_s < self.reach_s() { as_corner } else { 0.0 };
         let of = |part: &Part| {
             let v_mm_s = part.v_mm_s.min(self.on_a_bend(part.bend).max(as_corner));
             Part { v_mm_s, ..*part }

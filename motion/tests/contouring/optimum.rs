@@ -41,7 +41,9 @@ fn ratio(row: &Row, kind: SlopeKind) -> Option<f64> {
     let mut blocks = Vec::new();
     for (ends, seq) in row.points.windows(2).zip(1..) {
         let block = job.block(seq, line(&ends[0], &ends[1]), row.feed_mm_s);
-        blocks.extend(stage.push(Block { contour: Some(dev(row.path_dev_mm)), ..block }, false));
+        blocks.extend(
+            stage.push(Block { contour: Some(dev(row.path_dev_mm)), ..block }, &Kernels::default()),
+        );
     }
     blocks.extend(stage.flush());
     let kinks = blocks.windows(2).any(|w| {

@@ -78,8 +78,8 @@ fn words_of_the_neighbours() {
         tolerance: tolerance(Some(0.01)),
         ..job.block(5, b.clone(), 60.0)
     };
-    let mut out: Vec<Block> = stage.push(first, false).collect();
-    out.extend(stage.push(second, false));
+    let mut out: Vec<Block> = stage.push(first, &Kernels::default()).collect();
+    out.extend(stage.push(second, &Kernels::default()));
     out.extend(stage.flush());
     assert!(stage.take_notices().is_empty(), "the last block does not ask for contouring");
     assert_eq!(out[0].feed, Feed::PathVelocity(50.0), "G93: the speed of the whole block");
@@ -97,13 +97,17 @@ fn words_of_the_neighbours() {
         end_velocity_mm_s: Some(5.0),
         ..job.block(0, a.clone(), 60.0)
     };
-    let mut out: Vec<Block> = stage.push(e, false).collect();
-    out.extend(stage.push(job.block(1, b.clone(), 60.0), false));
+    let mut out: Vec<Block> = stage.push(e, &Kernels::default()).collect();
+    out.extend(stage.push(job.block(1, b.clone(), 60.0), &Kernels::default()));
     assert!(curves(&out).iter().all(|c| c.feed == Feed::PathVelocity(5.0)));
     out.extend(stage.flush());
     // a block without the word keeps its corner
-    let plain: Vec<Block> = stage.push(job.block(0, a, 60.0), false).collect();
-    assert_eq!(stage.push(job.block(1, b, 60.0), false).count(), 1, "it is final at once");
+    let plain: Vec<Block> = stage.push(job.block(0, a, 60.0), &Kernels::default()).collect();
+    assert_eq!(
+        stage.push(job.block(1, b, 60.0), &Kernels::default()).count(),
+        1,
+        "it is final at once"
+    );
     assert!(!is_curve(&plain[0]) && apart(plain[0].path.end(), &[0.0, 0.0]) < 1e-15);
 }
 

@@ -4,18 +4,21 @@ use super::{at, contoured_at, dev, line};
 use crate::common::{Job, deviation, filtered, peaks};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_kit::Random;
+use kontur_kit::{Random, environment};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, ContourSettings, Tolerance};
 use kontur_motion::contouring::Contouring;
+use kontur_motion::tolerance::Kernels;
+use std::sync::Arc;
 
 /// Setpoints of a contoured polygon, and the peaks of their differences.
 fn driven(job: &Job, settings: ContourSettings, points: &[&[f64]], feed: f64) -> (usize, f64, f64) {
     let mut stage = Contouring::new(CycleTime::from_us(job.cycle_us).unwrap());
+    let kernels = Kernels::new(vec![job.kernel.clone().map(Arc::new); points[0].len()]);
     let mut blocks = Vec::new();
     for (i, w) in points.windows(2).enumerate() {
         let block = job.block(i as u64, line(w[0], w[1]), feed);
-        blocks.extend(stage.push(Block { contour: Some(settings), ..block }, false));
+        blocks.extend(stage.push(Block { contour: Some(settings), ..block }, &kernels));
     }
     blocks.extend(stage.flush());
     peaks(&job.run(points[0], blocks.into_iter()), job.cycle_us)
@@ -113,5 +116,40 @@ fn tolerance_monitoring_on_curves() {
         }
         assert!(worst[0] > 0.02, "{kind:?}: the filter cuts the curves: {worst:?}");
         assert!(worst[1] <= 0.01 + 1e-4, "{kind:?}: {worst:?}");
+    }
+}
+
+/// Under `AX_DEV` a stop at a corner may take less time than any curve within the tolerance: rounded polygons take no longer
+/// than sharp ones.
+#[test]
+fn rounding_costs_no_time_under_ax_dev() {
+    let count = environment("COUNT", 4);
+    let mut random = Random::from_state(17);
+    for program in 0..count {
+        let (mut heading, mut at) = (0.0, [0.0, 0.0]);
+        let edge = 0.3 * libm::pow(50.0, random.ratio());
+        let mut points = vec![at];
+        for _ in 0..3 {
+            let l = edge * (0.4 + 1.2 * random.ratio());
+            let (sin, cos) = libm::sincos(heading);
+            at = [at[0] + l * cos, at[1] + l * sin];
+            points.push(at);
+            let turn = 20.0 + 140.0 * random.ratio();
+            heading += if random.ratio() < 0.5 { -turn } else { turn }.to_radians();
+        }
+        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
+        for (mode, freq_hz, ax_dev_mm) in [(2, 40.0, 0.01), (3, 20.0, 0.003), (1, 15.0, 0.02)] {
+            let guard = VibGuardSettings { mode, freq_hz, damping: 0.1 };
+            let mut job = Job::new(1.0, if program % 2 == 0 { Hsc } else { Trapez });
+            job.slope.optimised = true;
+            job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
+            job.tolerance = Tolerance { ax_dev_mm: Some(ax_dev_mm), acc_fact: 1.0 };
+            let sharp = driven(&job, sharp(), &views, 60.0).0;
+            for eps in [0.01, 0.1] {
+                let round = driven(&job, dev(eps), &views, 60.0).0;
+                let most = sharp + sharp / 200 + 2;
+                assert!(round <= most, "{program} mode {mode} {eps}: {round} of {sharp} cycles");
+            }
+        }
     }
 }

@@ -290,6 +290,12 @@ impl Akima {
         self.behind_arc = false;
     }
 
+    /// A motion outside splines, while none is in progress: the next one continues tangentially behind an arc.
+    pub(super) fn pass(&mut self, motion: &Motion) {
+        self.moved = true;
+        self.behind_arc = self.selected && !motion.block.path.is_straight();
+    }
+
     /// Whether a spline is in progress.
     pub(in crate::exec) fn runs(&self) -> bool {
         self.run.is_some()

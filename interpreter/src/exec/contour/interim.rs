@@ -10,6 +10,7 @@ use kontur_filters::time::CycleTime;
 use kontur_motion::block::{Block, ContourMode};
 use kontur_motion::contouring::Contouring;
 use kontur_motion::path::Path;
+use kontur_motion::tolerance::Kernels;
 use std::collections::VecDeque;
 
 /// The generated curves.
@@ -58,7 +59,7 @@ impl Interim {
         }
         self.next += 1;
         let mut driven: Option<Driven> = None;
-        for made in self.stage.push(block, false) {
+        for made in self.stage.push(block, &Kernels::default()) {
             while self.before.front().is_some_and(|(seq, ..)| *seq < made.seq) {
                 self.before.pop_front();
             }

@@ -88,4 +88,9 @@ fn tangential_transitions() {
     let blocks = arc.blocks();
     assert_near(&direction(blocks[1], true), &direction(blocks[2], false));
     assert_near(&direction(blocks[2], true), &direction(blocks[3], false));
+    // also where the arc is the first motion, or several follow each other
+    let arcs = clean(
+        "F1000\nG151\nG02 X10 Y-10 I0 J-10\nG02 X0 Y-20 I-10\nG01 X-12 Y-20\nX-20 Y-25\nG150\nM30\n",
+    );
+    assert_near(&direction(arcs.blocks()[2], false), &[-1.0, 0.0, 0.0]);
 }
