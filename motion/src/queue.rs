@@ -252,6 +252,14 @@ impl Queued {
         groups.into_iter().enumerate().map(part).collect()
     }
 
+    /// The block in three parts: its first and its last `reach_mm`, and the rest.
+    pub(crate) fn with_ends_apart(self: &Arc<Self>, reach_mm: f64) -> Vec<Arc<Self>> {
+        let behind = self.remainder(reach_mm);
+        let middle_mm = behind.length - reach_mm;
+        let last = behind.remainder(middle_mm);
+        vec![Arc::new(self.up_to(reach_mm)), Arc::new(behind.up_to(middle_mm)), last]
+    }
+
     /// See [`Slope::plans_across`](crate::block::Slope::plans_across). A block too short for a change of speed with constant
     /// ramp times is planned across as well: otherwise a polygon of such blocks would not leave the speed of its slowest
     /// kink (Assumption: P-CHAN-00349 lowers the excitation of single motions, 149301515).

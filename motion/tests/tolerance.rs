@@ -11,7 +11,7 @@ use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 use kontur_motion::deviation::Meter;
 use kontur_motion::deviation::Unkept;
-use kontur_motion::path::{LinePath, Path};
+use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
@@ -218,6 +218,54 @@ fn no_slower_than_the_best_uniform_corner_speed() {
 }
 
 /// A tolerance just above the deviation of a program without one does not change a bit of the result.
+/// A blend of a line into an arc with a kink of a sixth of a degree, and two arcs at a corner: a larger tolerance never takes
+/// longer, and neighbouring ones take nearly the same time.
+#[test]
+fn arcs_take_no_longer_with_a_larger_tolerance() {
+    let line = |from: [f64; 2], to: [f64; 2]| {
+        let ends = [from, to].map(|p| AxisVec::from_slice(&p));
+        let [from, to] = ends;
+        Path::Line(LinePath::new(from, to, &[]).unwrap())
+    };
+    // the centre lies on the bisector, `off` to the left of the chord
+    let arc = |from: [f64; 2], to: [f64; 2], off: f64, sense: f64| {
+        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+        let chord = libm::hypot(dx, dy);
+        let centre_mm = [
+            0.5 * (from[0] + to[0]) - off * dy / chord,
+            0.5 * (from[1] + to[1]) + off * dx / chord,
+        ];
+        let half = libm::atan2(0.5 * chord, sense * off);
+        let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: 2.0 * sense * half };
+        let [from, to] = [from, to].map(|p| AxisVec::from_slice(&p));
+        Path::Arc(ArcPath::new(from, to, shape, &[]).unwrap())
+    };
+    let blend = [line([0.0, 0.0], [-4.0, -0.7]), arc([-4.0, -0.7], [-5.65, -6.0], 1.424, 1.0)];
+    let corner = [
+        arc([0.0, 0.0], [-4.2, -2.38], 0.63, -1.0),
+        arc([-4.2, -2.38], [-4.18, -1.5], -1.69, -1.0),
+    ];
+    for paths in [&blend, &corner] {
+        for kind in [Hsc, Trapez, Sin2] {
+            let mut last: Option<usize> = None;
+            for step in 0..11 {
+                let ax_dev_mm = 0.02 + 0.0008 * f64::from(step);
+                let job = guarded(Job::new(1.0, kind), 2, 8.0, 0.1, Some(ax_dev_mm));
+                let blocks =
+                    paths.iter().zip(0..).map(|(path, i)| job.block(i, path.clone(), 33.0));
+                let cycles = job.run(paths[0].start(), blocks).len();
+                let (least, most) =
+                    last.map_or((0, usize::MAX), |last| (last - last / 25, last + 2));
+                assert!(
+                    (least..=most).contains(&cycles),
+                    "{kind:?} {ax_dev_mm}: {cycles} cycles after {last:?}"
+                );
+                last = Some(cycles);
+            }
+        }
+    }
+}
+
 #[test]
 fn a_tolerance_that_is_kept_anyway_changes_nothing() {
     for (name, points) in contours() {

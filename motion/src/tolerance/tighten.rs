@@ -6,6 +6,7 @@ use super::findings::Findings;
 use super::view::View;
 use crate::axis::AxisVec;
 use crate::overshoot::gentle;
+use crate::path::Path;
 use crate::queue::{Queued, Stretch};
 use kontur_filters::kernel::{Kernel, Tap};
 use std::sync::Arc;
@@ -36,7 +37,11 @@ impl View<'_> {
             Some((b, &mark.queued, findings.block[b]?.1))
         });
         blamed
-            .map(|(b, queued, tolerance)| (b, queued.parts(stretches(trial, queued, tolerance))))
+            .map(|(b, queued, tolerance)| {
+                let reach = ends_apart(trial, queued, tolerance);
+                let parts = reach.map(|reach_mm| queued.with_ends_apart(reach_mm));
+                (b, parts.unwrap_or_else(|| queued.parts(stretches(trial, queued, tolerance))))
+            })
             .filter(|(_, parts)| parts.len() > 1)
             .collect()
     }
@@ -187,6 +192,17 @@ fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch>
         }
     }
     out
+}
+
+/// The length in mm at either end of an arc within which the blocks beside it act, if the rest of it is at least as long: a speed
+/// that they require does not limit all of it. `None` for other blocks, and for parts of arcs.
+fn ends_apart(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Option<f64> {
+    let is_whole = !queued.goes_on && queued.offset <= 0.0;
+    let is_arc = matches!(queued.block.path, Path::Arc(_) | Path::Tilted(_));
+    let v = on_a_bend(trial, queued.bend, tolerance).min(queued.velocity.v_mm_s);
+    let reach_mm = v * f64::from(trial.kernels.length()) * trial.cycle.seconds();
+    let apart = is_whole && is_arc && !trial.kernels.unequal && 3.0 * reach_mm <= queued.length;
+    apart.then_some(reach_mm)
 }
 
 /// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived for a parabola).
