@@ -103,6 +103,17 @@ impl Contour {
         self.blocks.push_back(Passed { cycles, s_mm, queued, above_feed });
     }
 
+    /// Corrects the time in cycles and the path length in mm at which a block, given by its index, is entered.
+    pub(crate) fn enter_again(&mut self, index: usize, cycles: f64, s_mm: f64) {
+        let passed = &mut self.blocks[index];
+        (passed.cycles, passed.s_mm) = (cycles, s_mm);
+    }
+
+    /// Keeps the first `count` blocks.
+    pub(crate) fn truncate(&mut self, count: usize) {
+        self.blocks.truncate(count);
+    }
+
     /// The block added last.
     pub(crate) fn last(&self) -> Option<&Passed> {
         self.blocks.back()
@@ -149,7 +160,7 @@ impl Contour {
 
     /// Keeps the first `count` blocks and appends others.
     pub(crate) fn restore(&mut self, count: usize, mut others: VecDeque<Passed>) {
-        self.blocks.truncate(count);
+        self.truncate(count);
         self.blocks.append(&mut others);
     }
 

@@ -44,7 +44,7 @@ use crate::axis::AxisVec;
 use crate::contour::{Contour, ROUNDING_MM, Sight, WARY};
 pub(crate) use meter::What;
 pub use meter::{Change, Meter};
-pub(crate) use set_path::SetPath;
+pub(crate) use set_path::{SetPath, distance};
 use smallvec::SmallVec;
 
 /// A block whose tolerance could not be kept.
@@ -172,9 +172,10 @@ impl SetPath {
         let around = contour.around((a, b), (from, to), (slack, slack), sight);
         let length = a.iter().zip(b).map(|(a, b)| (b - a) * (b - a)).sum::<f64>().sqrt();
         let parts = (length / apart).ceil().clamp(1.0, f64::from(PARTS)) as u32;
+        let mut point = AxisVec::zeros(a.len());
         let component = |part: u32| {
             let u = f64::from(part) / f64::from(parts);
-            let point: AxisVec = a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect();
+            between::on_the_line((a, b), u, &mut point);
             around.worst_component(&point, (u - 0.5).abs() * length)
         };
         (1..=parts).map(component).fold(0.0, f64::max)

@@ -98,6 +98,7 @@ mod glance;
 mod harvest;
 mod kernels;
 mod leaves;
+mod marks;
 mod measure;
 mod places;
 mod ranges;
@@ -116,6 +117,7 @@ pub(crate) use answered::entered;
 pub(crate) use demands::Demands;
 pub use kernels::Kernels;
 use kontur_filters::time::CycleTime;
+pub(crate) use marks::Marks;
 use set_points::SetPoints;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -192,7 +194,7 @@ impl Monitor {
 
     /// The worst excess in the final part of a trial.
     pub(crate) fn excess(&self, trial: &Trial<'_>) -> Option<Unkept> {
-        let view = View::new(trial, self);
+        let view = View::new(trial, self, Marks::default());
         view.search(&[(trial.now + 1, u64::MAX)], &mut SetPoints::new(&view), |_, _| ())
     }
 }

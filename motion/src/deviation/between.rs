@@ -163,8 +163,9 @@ fn push_between<A: Array<Item = f64>>(
     }
 }
 
+/// The point at a share of the line.
 #[inline]
-fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
+pub(super) fn on_the_line((from, to): (&[f64], &[f64]), u: f64, point: &mut [f64]) {
     let n = point.len();
     let (from, to) = (&from[..n], &to[..n]);
     for i in 0..n {

@@ -20,6 +20,13 @@ impl SetPath {
         Self { axes, first, values: Vec::new(), ways: Vec::new() }
     }
 
+    /// Without set points, with memory for those of the cycles `first..=last`.
+    pub(crate) fn of((first, last): (u64, u64), axes: usize) -> Self {
+        let count = (last + 1).saturating_sub(first) as usize;
+        let (values, ways) = (Vec::with_capacity(count * axes), Vec::with_capacity(count));
+        Self { axes, first, values, ways }
+    }
+
     /// Restarts with the set point of cycle `k` only.
     pub(super) fn restart(&mut self, k: u64, point: &[f64]) {
         (self.axes, self.first) = (point.len(), k);
@@ -35,14 +42,7 @@ impl SetPath {
     /// Adds the set point of the next cycle.
     pub(crate) fn push(&mut self, point: &[f64]) {
         let way = self.ways.last().map_or(0.0, |way| {
-            let before = &self.values[self.values.len() - point.len()..];
-            // the numbers of axes that occur have loops of known length
-            way + match point.len() {
-                2 => apart(&before[..2], &point[..2]),
-                3 => apart(&before[..3], &point[..3]),
-                4 => apart(&before[..4], &point[..4]),
-                _ => apart(before, point),
-            }
+            way + distance(&self.values[self.values.len() - point.len()..], point)
         });
         self.ways.push(way);
         self.values.extend_from_slice(point);
@@ -185,6 +185,17 @@ impl SetPath {
 }
 
 /// Distance in mm between two points.
+#[inline]
+pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
+    // the numbers of axes that occur have loops of known length
+    match a.len() {
+        2 => apart(&a[..2], &b[..2]),
+        3 => apart(&a[..3], &b[..3]),
+        4 => apart(&a[..4], &b[..4]),
+        _ => apart(a, b),
+    }
+}
+
 #[inline]
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     let b = &b[..a.len()];

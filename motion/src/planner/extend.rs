@@ -8,7 +8,7 @@ use crate::plan::{Segment, Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, Seen, is_at};
-use crate::tolerance::{Demands, Trial, Verdict};
+use crate::tolerance::{Demands, Marks, Trial, Verdict};
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -113,6 +113,7 @@ impl Planner {
         round: &mut usize,
         too_late: f64,
     ) -> Searched {
+        let mut marks = Marks::default();
         loop {
             let mut entries = match self.plan.place(window, forced, ends, self.cycle) {
                 Ok(entries) => entries,
@@ -123,7 +124,7 @@ impl Planner {
             }
             let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
             recall(&mut entries, before, self.cycle);
-            let verdict = self.verdict(&mut entries, *round);
+            let verdict = self.verdict(&mut entries, *round, &mut marks);
             // a plan that is measured in a few places only is not a round
             *round += usize::from(!matches!(verdict, Verdict::Again));
             match verdict {
@@ -144,13 +145,14 @@ impl Planner {
     /// Examines a plan of the window that follows the final part, see [`Monitor::examine`].
     ///
     /// [`Monitor::examine`]: crate::tolerance::Monitor::examine
-    fn verdict(&mut self, entries: &mut [Entry], round: usize) -> Verdict {
+    fn verdict(&mut self, entries: &mut [Entry], round: usize, marks: &mut Marks) -> Verdict {
         let mut blocks = entries.iter().flat_map(|e| &e.blocks);
         if !blocks.any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some()) || !self.kernels.any() {
             return Verdict::Kept;
         }
         let mut demands = std::mem::take(&mut self.plan.demands);
-        let (verdict, seen) = self.monitor.examine(&self.trial(entries), round, &mut demands);
+        let (verdict, seen) =
+            self.monitor.examine(&self.trial(entries), round, &mut demands, marks);
         self.plan.demands = demands;
         for (entry, seen) in entries.iter_mut().zip(seen) {
             entry.seen = seen;

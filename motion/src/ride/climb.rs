@@ -147,11 +147,12 @@ impl Climb<'_> {
     /// acceleration that remains there. False, and unchanged, if none remains: the fall from the limit then leaves room
     /// above it.
     fn lower(&mut self, k: usize, limit: f64) -> bool {
-        let Some(i) = (self.base..self.out.len())
-            .rev()
-            .take(MOST_BACK)
-            .find(|i| self.passes(&self.out[*i], k).v <= limit)
-        else {
+        // a ramp down to zero acceleration never reduces the speed, so that most phases need not be followed
+        let may = |from: &Phase| from.v <= limit * (1.0 + SLACK);
+        let Some(i) = (self.base..self.out.len()).rev().take(MOST_BACK).find(|i| {
+            let from = &self.out[*i];
+            may(from) && self.passes(from, k).v <= limit
+        }) else {
             return false;
         };
         let phase = self.out[i];

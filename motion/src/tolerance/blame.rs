@@ -18,7 +18,8 @@
 use super::demands::{Demands, PATIENCE, hurry};
 use super::even::{ALIKE, Evenly, aim, fastest};
 use super::findings::Findings;
-use super::view::{Mark, View};
+use super::marks::Mark;
+use super::view::View;
 use super::violation::{Record, Violation};
 use crate::axis::AxisVec;
 use crate::contour::SAME_START_MM;
@@ -374,11 +375,10 @@ impl View<'_> {
         let aim = aim(v.tolerance_mm);
         let least = LEAST * fastest_planned;
         fastest(fastest_planned / f64::from(1 << DOUBLINGS), least, fastest_planned, |speed| {
-            let deviation = match &v.missed {
-                Some((point, s)) => evenly.misses(point, *s, speed),
-                None => evenly.leaves(middle, speed),
-            };
-            deviation <= aim
+            match &v.missed {
+                Some((point, s)) => evenly.misses(point, *s, speed) <= aim,
+                None => evenly.stays(middle, speed, aim),
+            }
         })
     }
 }

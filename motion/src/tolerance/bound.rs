@@ -8,9 +8,10 @@
 //! that they hold: the bound is then close to the measured value, because the vector has no component along the path, to
 //! first order. Filters that differ move the set point along the path, and `m` is moved with it.
 
-use super::view::Mark;
+use super::marks::Mark;
 use crate::axis::AxisVec;
 use crate::contour::{Contour, Walk};
+use crate::deviation::distance;
 
 /// The point of the contour that accompanies the set point.
 pub(super) struct Companion<'a> {
@@ -73,10 +74,6 @@ impl<'a> Companion<'a> {
     }
 }
 
-pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     #[expect(unreachable_pub, reason = "written for examples, which are outside of the crate")]
@@ -100,7 +97,8 @@ mod tests {
             contour.enter(0.0, s_mm, Arc::clone(&queued));
             let (cycles, jump, axis) = (0.0, 1.0, 0);
             let (boundary, block) = (None, None);
-            marks.push(Mark { cycles, boundary, block, queued, s_mm, jump, axis, inside: None });
+            let (inside, goes_on) = (None, false);
+            marks.push(Mark { cycles, boundary, block, queued, s_mm, jump, axis, inside, goes_on });
             s_mm += length;
         }
         (marks, contour)

@@ -3,7 +3,8 @@
 //! The path around the stop is sampled once; another dwell only changes the time between the same states. A few set
 //! points are enough, because the next plan is measured in any case.
 
-use super::view::{Mark, View};
+use super::marks::{Mark, Marks};
+use super::view::View;
 use super::violation::within;
 use super::{Demands, Monitor, Trial};
 use crate::axis::AxisVec;
@@ -57,7 +58,7 @@ pub(crate) struct Shorter {
 impl Monitor {
     /// The dwells of a plan that could be shorter if nothing else changed.
     pub(crate) fn shorter(&self, trial: &Trial<'_>, demands: &Demands) -> Shorter {
-        let view = View::new(trial, self);
+        let view = View::new(trial, self, Marks::default());
         let mut out = Shorter::default();
         let mut line: Option<Vec<usize>> = None;
         for mark in &view.marks {

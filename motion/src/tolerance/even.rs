@@ -4,12 +4,12 @@
 //! demands if the free plan does not keep the tolerance ([`foresee`]): where they limit the speed, a higher feed rate
 //! has no effect.
 
-use super::view::STRAIGHT;
+use super::marks::STRAIGHT;
 use super::violation::within;
 use super::{Demands, Kernels};
 use crate::axis::AxisVec;
-use crate::contour::Contour;
-use crate::deviation::SetPath;
+use crate::contour::{Contour, ROUNDING_MM};
+use crate::deviation::{SetPath, distance};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
@@ -35,13 +35,20 @@ pub(super) struct Evenly<'a> {
 }
 
 impl Evenly<'_> {
-    /// Largest component in mm by which the set point around path length `middle` leaves the contour at a speed in
-    /// mm/s.
-    pub(super) fn leaves(&self, middle: f64, speed: f64) -> f64 {
-        let reach = self.reach(speed);
+    /// Whether no component by which the set point around path length `middle` leaves the contour at a speed in mm/s
+    /// exceeds `aim` mm.
+    pub(super) fn stays(&self, middle: f64, speed: f64, aim: f64) -> bool {
         let mut x = AxisVec::zeros(self.kernels.axes.len());
         self.set_point(middle, speed, &mut x);
-        self.contour.aside(&x, middle - reach, middle + reach)
+        // no point of the contour is nearer than the nearest one: at most speeds that keep the tolerance the one at the
+        // middle is near enough
+        let mut at = AxisVec::zeros(x.len());
+        self.contour.walk().position(middle, &mut at);
+        if distance(&x, &at) + ROUNDING_MM <= aim {
+            return true;
+        }
+        let reach = self.reach(speed);
+        self.contour.aside(&x, middle - reach, middle + reach) <= aim
     }
 
     /// Largest component in mm by which the set path around path length `at` misses a point there, at a speed in mm/s.
@@ -198,7 +205,7 @@ pub(super) fn foresee(
         } else {
             let point = window[kink.boundary].block.path.start();
             fastest(guess, 1e-3 * guess, kink.feed, |speed| {
-                evenly.leaves(kink.s, speed) <= aim
+                evenly.stays(kink.s, speed, aim)
                     && (!kink.acute || evenly.misses(point, kink.s, speed) <= aim)
             })
         };

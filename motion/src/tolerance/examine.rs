@@ -5,6 +5,7 @@ use super::demands::Demands;
 use super::even::{foresee, foresees};
 use super::findings::Findings;
 use super::leaves::Left;
+use super::marks::Marks;
 use super::places::Places;
 use super::ranges::joined;
 use super::set_points::SetPoints;
@@ -31,14 +32,26 @@ impl Monitor {
     ///
     /// Cheap checks come first, and an excess is answered before the rest is measured. In a plan that has been examined
     /// before, only the changes are measured; last of all, what has moved in time by a fraction of a cycle, because its
-    /// set points are then elsewhere. Returns what is now known of every entry.
+    /// set points are then elsewhere. Returns what is now known of every entry. `marks` are those of the last plan of
+    /// the search, and become those of this one.
     pub(crate) fn examine(
         &self,
         trial: &Trial<'_>,
         round: usize,
         demands: &mut Demands,
+        marks: &mut Marks,
     ) -> (Verdict, Vec<Seen>) {
-        let view = View::new(trial, self);
+        let view = View::new(trial, self, std::mem::take(marks));
+        let answer = view.answer(round, demands);
+        *marks = view.into_marks();
+        answer
+    }
+}
+
+impl View<'_> {
+    /// See [`Monitor::examine`].
+    fn answer(&self, round: usize, demands: &mut Demands) -> (Verdict, Vec<Seen>) {
+        let (view, trial) = (self, self.trial);
         let blocks = demands.feed.len();
         // even speeds and divided blocks come first; without bends there is nothing to divide, and blame is not needed
         // for it

@@ -35,7 +35,7 @@ impl View<'_> {
         let mut walk = contour.walk();
         for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
             let first = from.saturating_sub(u64::from(length) + 1);
-            let mut record = Record::starting(first);
+            let mut record = Record::of((first, to));
             let mut harvest = Harvest::new(self, &mut worst, &mut found);
             buffer.seek(first);
             for k in first..=to {

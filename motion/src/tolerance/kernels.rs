@@ -86,10 +86,18 @@ impl Kernels {
         let now = &row(0)[..n];
         out.fill(0.0);
         if let (false, Some(kernel)) = (self.unequal, self.longest()) {
-            for tap in kernel.taps() {
-                let row = &row(tap.delay)[..n];
-                for i in 0..n {
-                    out[i] += tap.weight * (row[i] - now[i]);
+            // the numbers of axes that occur have loops of known length
+            match n {
+                3 => add::<3>(kernel, row, out),
+                4 => add::<4>(kernel, row, out),
+                5 => add::<5>(kernel, row, out),
+                _ => {
+                    for tap in kernel.taps() {
+                        let row = &row(tap.delay)[..n];
+                        for i in 0..n {
+                            out[i] += tap.weight * (row[i] - now[i]);
+                        }
+                    }
                 }
             }
         } else {
@@ -102,6 +110,19 @@ impl Kernels {
         }
         for (y, now) in out.iter_mut().zip(now) {
             *y += now;
+        }
+    }
+}
+
+/// Adds the weighted differences of rows of `N` values from the newest one.
+#[inline]
+fn add<'a, const N: usize>(kernel: &Kernel, row: impl Fn(u32) -> &'a [f64], out: &mut [f64]) {
+    let rows = |delay: u32| row(delay).first_chunk::<N>();
+    let (Some(now), Some(out)) = (rows(0), out.first_chunk_mut::<N>()) else { return };
+    for tap in kernel.taps() {
+        let Some(row) = rows(tap.delay) else { return };
+        for i in 0..N {
+            out[i] += tap.weight * (row[i] - now[i]);
         }
     }
 }

@@ -40,8 +40,8 @@ impl View<'_> {
         let mut companion = Companion::new(&self.marks, &self.contour, n);
         for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
             let first = self.first_for((from, to));
-            let mut record = Record::starting(first);
-            let mut set = SetPath::starting(first, n);
+            let mut record = Record::of((first, to));
+            let mut set = SetPath::of((first, to), n);
             let mut sight = Sight::default();
             let mut harvest = Harvest::new(self, &mut left.worst, &mut found);
             let mut waiting: Vec<(f64, u64)> = Vec::new();

@@ -1,6 +1,5 @@
 //! Measures by how far the set path misses points of the contour.
 
-use super::bound::distance;
 use super::harvest::Harvest;
 use super::search::Suspects;
 use super::set_points::SetPoints;
@@ -9,7 +8,7 @@ use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
 use crate::contour::ROUNDING_MM;
 use crate::deviation::Unkept;
-use crate::deviation::{ALIKE, Excursion, SetPath};
+use crate::deviation::{ALIKE, Excursion, SetPath, distance};
 use smallvec::{SmallVec, smallvec};
 
 /// Cycles around the set point nearest to one point of the contour within which that of the next point is searched for.
@@ -144,8 +143,8 @@ impl View<'_> {
         let reach = length as f64;
         let n = points.axes();
         let first = from.saturating_sub(2 * length + 4);
-        let mut record = Record::starting(first);
-        let mut set = SetPath::starting(first, n);
+        let mut record = Record::of((first, to));
+        let mut set = SetPath::of((first, to), n);
         let mut at = marks.partition_point(|m| m.cycles < from as f64 - reach - 2.0);
         let mut harvest = Harvest::new(self, worst, found);
         let mut between = AxisVec::zeros(n);

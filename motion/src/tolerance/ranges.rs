@@ -3,12 +3,19 @@
 /// Cycles measured at a time.
 pub(super) const CHUNK: u64 = 8192;
 
-/// The parts of a time range, in whole cycles, that lie within any of the given ranges of cycles.
-pub(super) fn within_of(among: &[(u64, u64)], (from, to): (f64, f64)) -> Vec<(u64, u64)> {
+/// The parts of a time range, in whole cycles, that lie within any of the given ranges of cycles. `passed`: number of
+/// those that ended before an earlier time range began.
+pub(super) fn within_of<'a>(
+    among: &'a [(u64, u64)],
+    passed: &mut usize,
+    (from, to): (f64, f64),
+) -> impl Iterator<Item = (u64, u64)> + use<'a> {
     let (from, to) = (from.floor().max(0.0) as u64, to.ceil() as u64);
-    let first = among.partition_point(|range| range.1 < from);
-    let inside = among[first..].iter().take_while(|range| range.0 <= to);
-    inside.map(|range| (range.0.max(from), range.1.min(to))).collect()
+    while among.get(*passed).is_some_and(|range| range.1 < from) {
+        *passed += 1;
+    }
+    let inside = among[*passed..].iter().take_while(move |range| range.0 <= to);
+    inside.map(move |range| (range.0.max(from), range.1.min(to)))
 }
 
 /// Splits a range of cycles, so that long stretches need little memory.

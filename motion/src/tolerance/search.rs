@@ -119,10 +119,16 @@ impl View<'_> {
         let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
         let mut active: Vec<(u64, u64)> = Vec::new();
         let calm = self.calm();
-        for m in 0..self.marks.len() {
+        let (Some(begin), Some(end)) = (among.first(), among.last()) else { return active };
+        // what these marks hold is missed before the first of the cycles
+        let missed = |k: f64| k + 2.0 * (reach as f64 + 2.0) + 1.0 < begin.0 as f64;
+        let first = self.marks.partition_point(|mark| missed(mark.cycles)).saturating_sub(1);
+        let last = self.marks.partition_point(|mark| mark.cycles <= end.1 as f64 + 1.0);
+        let mut passed = 0;
+        for m in first..last {
             let Some(held) = self.held(m) else { continue };
             // missed points are searched for after they have left the filters
-            let inside = within_of(among, (held.0, held.1 + reach as f64 + 2.0));
+            let inside = within_of(among, &mut passed, (held.0, held.1 + reach as f64 + 2.0));
             if calm {
                 active.extend(inside);
                 continue;

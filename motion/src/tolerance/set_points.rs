@@ -8,6 +8,8 @@ use super::view::{Buffer, View};
 const MOST: u64 = 4 * CHUNK;
 /// Cycle number of an empty row.
 const NONE: u64 = u64::MAX;
+/// Number of rows for which memory is reserved at once: most examinations ask for a few stretches of the plan only.
+const PAGE: usize = 64;
 
 /// Cache of set points, see the module.
 pub(super) struct SetPoints<'a> {
@@ -15,10 +17,11 @@ pub(super) struct SetPoints<'a> {
     axes: usize,
     /// Cycle of each row; cycle `k` uses row `k` modulo the number of rows.
     cycles: Vec<u64>,
-    /// Rows: set point, path length beside it, path length.
-    rows: Vec<f64>,
-    /// Start of the row of the last cycle requested.
-    at: usize,
+    /// Rows in pages, the latter empty until one of their rows is requested: set point, path length beside it, path
+    /// length.
+    pages: Vec<Vec<f64>>,
+    /// Page and start in it of the row of the last cycle requested.
+    at: (usize, usize),
 }
 
 impl<'a> SetPoints<'a> {
@@ -28,8 +31,8 @@ impl<'a> SetPoints<'a> {
         let count = (ahead + 8 * (reach + 1)).min(MOST) as usize;
         let buffer = Buffer::new(view);
         let axes = buffer.set().len();
-        let (cycles, rows) = (vec![NONE; count], vec![0.0; count * (axes + 2)]);
-        Self { buffer, axes, cycles, rows, at: 0 }
+        let (cycles, pages) = (vec![NONE; count], vec![Vec::new(); count.div_ceil(PAGE)]);
+        Self { buffer, axes, cycles, pages, at: (0, 0) }
     }
 
     /// Number of axes.
@@ -40,13 +43,18 @@ impl<'a> SetPoints<'a> {
     /// Selects cycle `k`, and computes it if needed.
     pub(super) fn step(&mut self, k: u64) {
         let row = (k % self.cycles.len() as u64) as usize;
-        self.at = row * (self.axes + 2);
+        let width = self.axes + 2;
+        self.at = (row / PAGE, row % PAGE * width);
         if self.cycles[row] != k {
             #[cfg(test)]
             crate::closed_forms::add();
             self.buffer.seek(k);
             self.buffer.step(k);
-            let (set, rest) = self.rows[self.at..][..self.axes + 2].split_at_mut(self.axes);
+            let page = &mut self.pages[self.at.0];
+            if page.is_empty() {
+                page.resize(PAGE * width, 0.0);
+            }
+            let (set, rest) = page[self.at.1..][..width].split_at_mut(self.axes);
             set.copy_from_slice(self.buffer.set());
             (rest[0], rest[1]) = (self.buffer.beside(), self.buffer.s());
             self.cycles[row] = k;
@@ -55,16 +63,20 @@ impl<'a> SetPoints<'a> {
 
     /// Set point of the selected cycle.
     pub(super) fn set(&self) -> &[f64] {
-        &self.rows[self.at..][..self.axes]
+        &self.row()[..self.axes]
     }
 
     /// See [`Buffer::beside`].
     pub(super) fn beside(&self) -> f64 {
-        self.rows[self.at + self.axes]
+        self.row()[self.axes]
     }
 
     /// Path length of the selected cycle.
     pub(super) fn s(&self) -> f64 {
-        self.rows[self.at + self.axes + 1]
+        self.row()[self.axes + 1]
+    }
+
+    fn row(&self) -> &[f64] {
+        &self.pages[self.at.0][self.at.1..]
     }
 }

@@ -1,53 +1,13 @@
 //! A plan under examination on the cycle grid: the times at which blocks are entered, and the resulting set points.
 
-use super::{BORDER_CYCLES, Kernels, Monitor, Trial};
+use super::marks::{Mark, Marks};
+use super::{Monitor, Trial};
 use crate::axis::AxisVec;
-use crate::contour::{Contour, SAME_START_MM, Walk};
-use crate::queue::Queued;
+use crate::contour::{Contour, Walk};
 use crate::timeline::{Entry, PathState, Reader};
-use kontur_filters::kernel::Kernel;
-use std::sync::Arc;
-
-/// Change of direction treated as 0.
-pub(super) const STRAIGHT: f64 = 1e-9;
 
 /// Number of rows in a buffer, in reaches of the kernels, from which on old rows are discarded.
 const ROOM: usize = 4;
-
-/// Entry of a block in a plan.
-pub(super) struct Mark {
-    pub(super) cycles: f64,
-    /// Index of the boundary in the window; `None` if it can no longer change.
-    pub(super) boundary: Option<usize>,
-    /// Index of the block in the window; `None` if it is final.
-    pub(super) block: Option<usize>,
-    pub(super) queued: Arc<Queued>,
-    /// Path length at the start of the block.
-    pub(super) s_mm: f64,
-    /// Largest change of direction of an axis with a kernel, and that axis.
-    pub(super) jump: f64,
-    pub(super) axis: usize,
-    /// Point of entry, if this is not the start of the path.
-    pub(super) inside: Option<AxisVec>,
-}
-
-impl Mark {
-    /// Whether the path has a kink at the entry: a straight line may be continued by another block.
-    pub(super) fn is_kink(&self) -> bool {
-        self.jump > STRAIGHT
-    }
-
-    /// Point of entry.
-    pub(super) fn point(&self) -> &AxisVec {
-        self.inside.as_ref().unwrap_or_else(|| self.queued.block.path.start())
-    }
-
-    /// Whether the path continues without a corner, as the remainder of the block before.
-    pub(super) fn goes_on_from(&self, before: &Self) -> bool {
-        let start = |m: &Self| m.s_mm - m.queued.offset;
-        (start(before) - start(self)).abs() < SAME_START_MM
-    }
-}
 
 /// A plan together with the setpoints before it.
 pub(super) struct View<'a> {
@@ -62,16 +22,19 @@ pub(super) struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    pub(super) fn new(trial: &'a Trial<'a>, monitor: &'a Monitor) -> Self {
-        let marks = marks(trial);
-        let mut contour = Contour::default();
-        for m in &marks {
-            contour.enter(m.cycles, m.s_mm, Arc::clone(&m.queued));
-        }
+    /// `known`: the marks of an earlier plan of the same search.
+    pub(super) fn new(trial: &'a Trial<'a>, monitor: &'a Monitor, mut known: Marks) -> Self {
+        known.follow(trial);
+        let Marks { list: marks, contour } = known;
         let mut tolerances = marks.iter().map(|m| m.queued.block.tolerance.ax_dev_mm);
         let first = tolerances.next().flatten();
         let tolerance_mm = first.filter(|_| tolerances.all(|t| t == first));
         Self { trial, monitor, marks, contour, tolerance_mm }
+    }
+
+    /// The marks, for the next plan of a search.
+    pub(super) fn into_marks(self) -> Marks {
+        Marks { list: self.marks, contour: self.contour }
     }
 
     /// State of the path in cycle `k`, output or planned.
@@ -119,56 +82,6 @@ impl<'a> View<'a> {
         }
         0.0
     }
-}
-
-/// Blocks already within reach, then those of the plan.
-fn marks(trial: &Trial<'_>) -> Vec<Mark> {
-    let reach = f64::from(trial.kernels.length());
-    let mut out: Vec<Mark> = Vec::new();
-    let mut add = |cycles: f64, queued: &Arc<Queued>, block: Option<usize>, s: f64| {
-        let (mut jump, mut axis) = (0.0, 0);
-        // the remainder of a block continues without a corner
-        let start = s - queued.offset;
-        let goes_on = |m: &Mark| (m.s_mm - m.queued.offset - start).abs() < SAME_START_MM;
-        if let Some(before) = out.last().filter(|m| !goes_on(m)) {
-            let (a, b) = (&before.queued.ends.tangent_out, &queued.ends.tangent_in);
-            for i in 0..a.len() {
-                let du = (b[i] - a[i]).abs();
-                if du > jump && trial.kernels.get(i).is_some() {
-                    (jump, axis) = (du, i);
-                }
-            }
-        }
-        let axis = if jump > 0.0 { axis } else { widest(trial.kernels) };
-        let path = &queued.block.path;
-        let inside = (queued.offset > 0.0).then(|| {
-            let mut point = path.start().clone();
-            path.position(queued.offset, &mut point);
-            point
-        });
-        // at the start of the path only a dwell is possible
-        let boundary = block.filter(|b| *b > 0 || trial.at_rest);
-        let queued = Arc::clone(queued);
-        out.push(Mark { cycles, boundary, block, queued, s_mm: s, jump, axis, inside });
-    };
-    let now = trial.now as f64;
-    for passed in trial.past.between(now - reach - BORDER_CYCLES - 1.0, f64::INFINITY) {
-        add(passed.cycles, &passed.queued, None, passed.s_mm);
-    }
-    let mut index = 0;
-    for entry in trial.plan {
-        for (cycles, s, queued) in entry.entries(trial.cycle) {
-            add(cycles, queued, Some(index), s);
-            index += 1;
-        }
-    }
-    out
-}
-
-/// Axis with the longest kernel.
-fn widest(kernels: &Kernels) -> usize {
-    let length = |i: &usize| kernels.get(*i).map_or(0, Kernel::length);
-    (0..kernels.axes.len()).max_by_key(length).unwrap_or(0)
 }
 
 /// Raw positions within reach of the kernels, and the resulting set point.

@@ -38,9 +38,9 @@ pub(super) struct Record {
 }
 
 impl Record {
-    /// An empty record, beginning with cycle `first`.
-    pub(super) fn starting(first: u64) -> Self {
-        Self { first, s_mm: Vec::new() }
+    /// An empty record for the cycles `first..=last`.
+    pub(super) fn of((first, last): (u64, u64)) -> Self {
+        Self { first, s_mm: Vec::with_capacity((last + 1).saturating_sub(first) as usize) }
     }
 
     pub(super) fn push(&mut self, s_mm: f64) {
