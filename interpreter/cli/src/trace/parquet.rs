@@ -6,7 +6,8 @@
 //! stored for the columns by which readers select rows (line, block, words), but not for numbers: finding them costs
 //! more than splitting their bytes.
 //!
-//! Rows are collected ([`columns`]) and encoded in groups ([`numbers`], [`chunk`]), which are then only copied.
+//! Rows are collected ([`columns`]) and encoded in groups ([`numbers`], [`words`], [`chunk`]), which are then only copied
+//! ([`file`]).
 //!
 //! A Parquet file is readable only once its footer is written. So each group that has waited for [`PERIOD`], or that would
 //! take too much memory, goes to a separate file in the folder `.NAME.*.parts` beside the target, and the end puts them
@@ -15,29 +16,27 @@
 
 mod chunk;
 mod columns;
+mod compressor;
+mod file;
 mod group;
 mod numbers;
+mod words;
 
 use super::batch::Batch;
 use super::clock::now;
 use crate::target::{Target, folder_of};
 use ::parquet::file::metadata::KeyValue;
-use ::parquet::file::reader::{FileReader as _, SerializedFileReader};
-use ::parquet::file::writer::SerializedFileWriter;
-use bytes::Bytes;
-use chunk::{Chunk, closed};
+use chunk::Chunk;
 use columns::Waiting;
-use group::{ROWS_PER_GROUP, to_io};
+use file::Unfinished;
+use group::ROWS_PER_GROUP;
 use kontur_interpreter::job::{Facts, Totals};
 use kontur_interpreter::record::columns::Column;
 use std::fs::File;
-use std::io::{self, BufWriter};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-/// Number of bytes handed to the system at once.
-const PIECE: usize = 1 << 20;
 
 /// Largest buffer that stays allocated when it is free, see [`keep_free_memory`]: more than that of any page.
 const KEPT: usize = 16 << 20;
@@ -104,7 +103,8 @@ impl ParquetWriter {
             self.waiting.take(batch, rows);
             if self.waiting.len() == ROWS_PER_GROUP {
                 self.end_group()?;
-                let bytes: usize = self.groups.iter().flatten().map(Chunk::len).sum();
+                let chunks = self.groups.iter().flatten();
+                let bytes: usize = chunks.map(|chunk| chunk.pages().len()).sum();
                 if bytes > IN_MEMORY {
                     self.write_parts()?;
                 }
@@ -148,9 +148,9 @@ impl ParquetWriter {
         self.folder = Some(folder);
         // until it is complete it has a name that readers of folders skip
         let unfinished = folder_of(&path).join(format!(".{:06}.part", self.parts.len() + 1));
-        let mut writer = self.writer(File::create(&unfinished)?)?;
-        put(&mut writer, group)?;
-        writer.close().map_err(to_io)?;
+        let mut file = Unfinished::begin(File::create(&unfinished)?, self.waiting.schema())?;
+        file.append(group)?;
+        file.finish(self.waiting.properties(), None)?;
         std::fs::rename(&unfinished, &path)?;
         self.parts.push(path);
         Ok(())
@@ -190,40 +190,25 @@ impl ParquetWriter {
             return Ok(());
         }
         let file = self.target.file()?.try_clone()?;
-        let mut writer = self.writer(file)?;
+        let mut file = Unfinished::begin(file, self.waiting.schema())?;
         for part in &self.parts {
-            let part = Bytes::from(std::fs::read(part)?);
-            let reader = SerializedFileReader::new(part.clone()).map_err(to_io)?;
-            let mut group = writer.next_row_group().map_err(to_io)?;
-            let metadata = reader.metadata().row_group(0);
-            for column in metadata.columns() {
-                let bytes = column.compressed_size().cast_unsigned();
-                let closed = closed(bytes, metadata.num_rows().cast_unsigned(), column.clone());
-                group.append_column(&part, closed).map_err(to_io)?;
-            }
-            group.close().map_err(to_io)?;
+            file.append_file(part)?;
         }
         for group in &self.groups {
-            put(&mut writer, group)?;
+            file.append(group)?;
         }
-        let mut note = |key: &str, value: String| {
-            writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
-        };
-        note("kontur.program", facts.program.clone());
-        note("kontur.machine", facts.machine.clone());
-        note("kontur.cycle_us", facts.cycle_us.to_string());
+        let note = |key: &str, value: String| KeyValue::new(key.to_owned(), value);
+        let mut notes = vec![
+            note("kontur.program", facts.program.clone()),
+            note("kontur.machine", facts.machine.clone()),
+            note("kontur.cycle_us", facts.cycle_us.to_string()),
+        ];
         for (axis, delay) in facts.axes.iter().zip(&totals.filter_delay_cycles) {
-            note(&format!("kontur.filter_delay_cycles.{}", axis.name), delay.to_string());
+            let key = format!("kontur.filter_delay_cycles.{}", axis.name);
+            notes.push(note(&key, delay.to_string()));
         }
-        writer.close().map_err(to_io)?;
+        file.finish(self.waiting.properties(), Some(notes))?;
         self.target.show()
-    }
-
-    /// Begins a Parquet file.
-    fn writer(&self, file: File) -> io::Result<SerializedFileWriter<BufWriter<File>>> {
-        let file = BufWriter::with_capacity(PIECE, file);
-        let (schema, properties) = (self.waiting.schema(), self.waiting.properties());
-        SerializedFileWriter::new(file, schema, properties).map_err(to_io)
     }
 }
 
@@ -239,16 +224,6 @@ fn folder_beside(path: &Path) -> io::Result<TempDir> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut builder = tempfile::Builder::new();
     builder.prefix(&format!(".{name}.")).suffix(".parts").tempdir_in(folder_of(path))
-}
-
-/// Appends a group to a file.
-fn put(file: &mut SerializedFileWriter<BufWriter<File>>, chunks: &[Chunk]) -> io::Result<()> {
-    let mut group = file.next_row_group().map_err(to_io)?;
-    for chunk in chunks {
-        chunk.append_to(&mut group)?;
-    }
-    group.close().map_err(to_io)?;
-    Ok(())
 }
 
 #[cfg(test)]

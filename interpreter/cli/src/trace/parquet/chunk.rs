@@ -3,23 +3,26 @@
 use super::group::to_io;
 use ::parquet::basic::{Compression, Encoding};
 use ::parquet::column::page::{CompressedPage, Page, PageWriter};
-use ::parquet::column::writer::{ColumnCloseResult, ColumnWriterImpl};
+use ::parquet::column::writer::ColumnWriterImpl;
 use ::parquet::data_type::DataType;
 use ::parquet::file::metadata::ColumnChunkMetaData;
 use ::parquet::file::properties::WriterPropertiesPtr;
-use ::parquet::file::writer::{SerializedPageWriter, SerializedRowGroupWriter, TrackedWrite};
+use ::parquet::file::statistics::Statistics;
+use ::parquet::file::writer::{SerializedPageWriter, TrackedWrite};
 use ::parquet::schema::types::ColumnDescPtr;
 use bytes::Bytes;
-use std::io::{self, Write};
+use integer_encoding::VarInt as _;
+use std::io;
 
 /// Room for the headers of the pages of a column.
 const HEADERS: usize = 128;
 
-/// A column of a group: its pages, and the description for the footer of a file.
+/// A column of a group: its pages, and their description, with places from the beginning of the first page on.
 #[derive(Debug)]
 pub(super) struct Chunk {
-    pages: Bytes,
-    closed: ColumnCloseResult,
+    pages: Vec<u8>,
+    rows: usize,
+    metadata: ColumnChunkMetaData,
 }
 
 impl Chunk {
@@ -37,12 +40,13 @@ impl Chunk {
         let pages = Box::new(SerializedPageWriter::new(&mut sink));
         let mut writer = ColumnWriterImpl::<T>::new(column, properties, pages);
         writer.write_batch(values, present, None).map_err(to_io)?;
-        let closed = writer.close().map_err(to_io)?;
-        Ok(Self { pages: sink.into_inner().map_err(to_io)?.into(), closed })
+        let metadata = writer.close().map_err(to_io)?.metadata;
+        let rows = present.map_or(values.len(), <[i16]>::len);
+        Ok(Self { pages: sink.into_inner().map_err(to_io)?, rows, metadata })
     }
 
     /// Pages without missing values that are encoded and compressed already, each with its uncompressed size; a
-    /// dictionary comes first.
+    /// dictionary comes first. `range`: the least and the greatest value, for readers that select rows by them.
     ///
     /// # Errors
     /// Those of the library.
@@ -51,6 +55,7 @@ impl Chunk {
         rows: usize,
         compression: Compression,
         pages: [(Page, usize); N],
+        range: Option<Statistics>,
     ) -> io::Result<Self> {
         let values: usize = pages.iter().map(|(page, _)| page.buffer().len()).sum();
         let mut sink = TrackedWrite::new(Vec::with_capacity(values + HEADERS));
@@ -65,51 +70,62 @@ impl Chunk {
             let offset = written.offset.cast_signed();
             if is_dictionary { dictionary = Some(offset) } else { data = offset }
         }
-        let pages: Bytes = sink.into_inner().map_err(to_io)?.into();
-        let metadata = ColumnChunkMetaData::builder(column)
+        let pages = sink.into_inner().map_err(to_io)?;
+        let mut metadata = ColumnChunkMetaData::builder(column)
             .set_encodings(encodings)
             .set_compression(compression)
             .set_num_values(rows.cast_signed() as i64)
             .set_total_compressed_size(pages.len().cast_signed() as i64)
             .set_total_uncompressed_size(uncompressed.cast_signed() as i64)
             .set_data_page_offset(data)
-            .set_dictionary_page_offset(dictionary)
-            .build();
-        let closed = closed(pages.len() as u64, rows as u64, metadata.map_err(to_io)?);
-        Ok(Self { pages, closed })
+            .set_dictionary_page_offset(dictionary);
+        if let Some(range) = range {
+            metadata = metadata.set_statistics(range);
+        }
+        Ok(Self { pages, rows, metadata: metadata.build().map_err(to_io)? })
     }
 
-    /// Number of bytes.
-    pub(super) const fn len(&self) -> usize {
-        self.pages.len()
+    /// The pages with their headers.
+    pub(super) fn pages(&self) -> &[u8] {
+        &self.pages
     }
 
-    /// Appends the column to a group of a file.
-    ///
-    /// # Errors
-    /// The system's.
-    pub(super) fn append_to(
-        &self,
-        group: &mut SerializedRowGroupWriter<'_, impl Write + Send>,
-    ) -> io::Result<()> {
-        let ColumnCloseResult { bytes_written, rows_written, ref metadata, .. } = self.closed;
-        let closed = closed(bytes_written, rows_written, metadata.clone());
-        group.append_column(&self.pages, closed).map_err(to_io)
+    /// Number of rows.
+    pub(super) const fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// What the footer of a file says of the column, with places as if the file began with it.
+    pub(super) const fn metadata(&self) -> &ColumnChunkMetaData {
+        &self.metadata
     }
 }
 
-/// The description of a column without indices.
-pub(super) const fn closed(
-    bytes_written: u64,
-    rows_written: u64,
-    metadata: ColumnChunkMetaData,
-) -> ColumnCloseResult {
-    ColumnCloseResult {
-        bytes_written,
-        rows_written,
-        metadata,
-        bloom_filter: None,
-        column_index: None,
-        offset_index: None,
+/// A page of values that are never missing.
+pub(super) fn data_page(buf: Bytes, rows: usize, encoding: Encoding) -> Page {
+    Page::DataPage {
+        buf,
+        num_values: rows as u32,
+        encoding,
+        def_level_encoding: Encoding::RLE,
+        rep_level_encoding: Encoding::RLE,
+        statistics: None,
     }
+}
+
+/// A page of the values to which indices refer.
+pub(super) const fn dictionary(buf: Bytes, values: usize) -> Page {
+    Page::DictionaryPage {
+        buf,
+        num_values: values as u32,
+        encoding: Encoding::PLAIN,
+        is_sorted: false,
+    }
+}
+
+/// Appends a run of the same index, which takes `width` bytes, to indices (the hybrid of runs and packed bits, which
+/// begins with the number of bits of an index).
+pub(super) fn run(indices: &mut Vec<u8>, index: usize, rows: usize, width: usize) {
+    indices.extend((rows << 1).encode_var_vec());
+    indices.extend(&index.to_le_bytes()[..width]);
 }

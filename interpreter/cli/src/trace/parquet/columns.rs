@@ -1,14 +1,15 @@
 //! The columns of a trace as types of Parquet, and the values of the rows that wait to become a group.
 
 use super::chunk::Chunk;
+use super::compressor::Compressor;
 use super::group::{ROWS_PER_GROUP, to_io};
-use super::numbers::{Compressor, Numbers};
+use super::numbers::Numbers;
+use super::words::Words;
 use crate::trace::batch::{Batch, Head};
 use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as Physical};
-use ::parquet::data_type::{ByteArray, ByteArrayType, Int64Type};
+use ::parquet::data_type::Int64Type;
 use ::parquet::file::properties::{EnabledStatistics, WriterProperties};
-use ::parquet::schema::types::{ColumnPath, SchemaDescriptor, Type};
-use bytes::Bytes;
+use ::parquet::schema::types::{ColumnPath, SchemaDescPtr, SchemaDescriptor, Type};
 use kontur_interpreter::job::{Facts, FileNames};
 use kontur_interpreter::record::SpeedLimit;
 use kontur_interpreter::record::columns::{Column, Content};
@@ -22,8 +23,7 @@ pub(super) struct Waiting {
     rows: usize,
     cycle_us: u64,
     files: FileNames,
-    limits: Vec<(SpeedLimit, ByteArray)>,
-    schema: SchemaDescriptor,
+    schema: SchemaDescPtr,
     properties: Arc<WriterProperties>,
     compressor: Compressor,
 }
@@ -34,7 +34,9 @@ enum Values {
     Integer(Vec<i64>),
     /// Integers that may be missing, with a 1 for each one present.
     Optional(Vec<i64>, Vec<i16>),
-    Word(Vec<ByteArray>),
+    Limit(Words<SpeedLimit>),
+    /// Names of files, by their numbers.
+    File(Words<u32>),
 }
 
 impl Values {
@@ -42,7 +44,8 @@ impl Values {
         match content {
             Content::Line => Self::Integer(Vec::new()),
             Content::Block => Self::Optional(Vec::new(), Vec::new()),
-            Content::File | Content::Limit => Self::Word(Vec::new()),
+            Content::File => Self::File(Words::new()),
+            Content::Limit => Self::Limit(Words::new()),
             _ => Self::Number(Numbers::new()),
         }
     }
@@ -55,7 +58,8 @@ impl Values {
                 v.clear();
                 present.clear();
             }
-            Self::Word(v) => v.clear(),
+            Self::Limit(v) => v.clear(),
+            Self::File(v) => v.clear(),
         }
     }
 }
@@ -72,8 +76,7 @@ impl Waiting {
             rows: 0,
             cycle_us: u64::from(facts.cycle_us),
             files: facts.files.clone(),
-            limits: SpeedLimit::ALL.map(|l| (l, word(l.name()))).into(),
-            schema: SchemaDescriptor::new(schema),
+            schema: Arc::new(SchemaDescriptor::new(schema)),
             properties: Arc::new(properties),
             compressor: Compressor::new(),
         })
@@ -85,24 +88,24 @@ impl Waiting {
     }
 
     /// The types of the columns.
-    pub(super) fn schema(&self) -> Arc<Type> {
-        self.schema.root_schema_ptr()
+    pub(super) fn schema(&self) -> SchemaDescPtr {
+        Arc::clone(&self.schema)
     }
 
     /// How they are written.
-    pub(super) fn properties(&self) -> Arc<WriterProperties> {
-        Arc::clone(&self.properties)
+    pub(super) fn properties(&self) -> &WriterProperties {
+        &self.properties
     }
 
     /// Takes rows of a batch, column by column.
     pub(super) fn take(&mut self, batch: &Batch, rows: Range<usize>) {
-        let Self { cycle_us, files, limits, .. } = self;
+        let cycle_us = self.cycle_us;
         let heads = &batch.heads()[rows.clone()];
         let mut numbers = batch.numbers().iter();
         for (content, values) in &mut self.values {
             match (values, content) {
                 (Values::Number(v), Content::Time) => {
-                    let time = |head: &Head| head.k.saturating_mul(*cycle_us) as f64 / 1e6;
+                    let time = |head: &Head| head.k.saturating_mul(cycle_us) as f64 / 1e6;
                     v.extend(&heads.iter().map(time).collect::<Vec<f64>>());
                 }
                 (Values::Number(v), _) => {
@@ -116,13 +119,8 @@ impl Waiting {
                     present.extend(heads.iter().map(|head| i16::from(block(head).is_some())));
                     v.extend(heads.iter().filter_map(block));
                 }
-                (Values::Word(v), Content::File) => {
-                    v.extend(heads.iter().map(|h| ByteArray::from(files.name(h.file).as_str())));
-                }
-                (Values::Word(v), _) => v.extend(heads.iter().map(|head| {
-                    let found = limits.iter().find(|l| l.0 == head.limit);
-                    found.map(|l| l.1.clone()).unwrap_or_default()
-                })),
+                (Values::Limit(v), _) => v.extend(heads.iter().map(|head| head.limit)),
+                (Values::File(v), _) => v.extend(heads.iter().map(|head| head.file)),
             }
         }
         self.rows += heads.len();
@@ -133,7 +131,7 @@ impl Waiting {
     /// # Errors
     /// Those of the library.
     pub(super) fn encode(&mut self) -> io::Result<Vec<Chunk>> {
-        let Self { values, schema, properties, compressor, rows, .. } = self;
+        let Self { values, schema, properties, compressor, rows, files, .. } = self;
         *rows = 0;
         let columns = values.iter_mut().zip(schema.columns());
         columns
@@ -145,7 +143,10 @@ impl Waiting {
                     Values::Optional(v, present) => {
                         Chunk::encode::<Int64Type>(column, properties, v, Some(present))
                     }
-                    Values::Word(v) => Chunk::encode::<ByteArrayType>(column, properties, v, None),
+                    Values::Limit(v) => v.encode(column, compressor, |limit| limit.name().into()),
+                    Values::File(v) => {
+                        v.encode(column, compressor, |file| files.name(file).as_str().into())
+                    }
                 };
                 values.clear();
                 chunk
@@ -174,7 +175,6 @@ fn described(columns: &[Column]) -> io::Result<(Arc<Type>, WriterProperties)> {
             }
             _ => (Physical::DOUBLE, None, Repetition::REQUIRED),
         };
-        // there are few different words, which keep their dictionary
         if physical == Physical::INT64 {
             let path = ColumnPath::from(column.name.as_str());
             properties = properties
@@ -190,9 +190,4 @@ fn described(columns: &[Column]) -> io::Result<(Arc<Type>, WriterProperties)> {
     }
     let schema = Type::group_type_builder("trace").with_fields(fields).build();
     Ok((Arc::new(schema.map_err(to_io)?), properties.build()))
-}
-
-/// A word that is cheap to clone, without a reference count.
-fn word(text: &'static str) -> ByteArray {
-    Bytes::from_static(text.as_bytes()).into()
 }

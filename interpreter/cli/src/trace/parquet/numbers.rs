@@ -4,13 +4,12 @@
 //! compressed from there. A column that does not change within a group is a dictionary of one value and one run of
 //! indices to it: some 80 bytes instead of 25 KB, and nothing to split or compress.
 
-use super::chunk::Chunk;
+use super::chunk::{Chunk, data_page, dictionary, run};
+use super::compressor::Compressor;
 use super::group::ROWS_PER_GROUP;
 use ::parquet::basic::{Compression, Encoding};
-use ::parquet::column::page::Page;
 use ::parquet::schema::types::ColumnDescPtr;
 use bytes::Bytes;
-use integer_encoding::VarInt;
 use std::io;
 
 /// Number of bytes of a value, each of which has its stream.
@@ -26,22 +25,6 @@ pub(super) struct Numbers {
     varies: bool,
     /// Then the values: each stream with room for a whole group.
     streams: Vec<u8>,
-}
-
-/// Memory for the compression of pages.
-#[derive(Debug)]
-pub(super) struct Compressor {
-    snappy: snap::raw::Encoder,
-    /// The streams of a group that is not full, without the gaps.
-    joined: Vec<u8>,
-    output: Vec<u8>,
-}
-
-impl Compressor {
-    /// Without memory yet.
-    pub(super) fn new() -> Self {
-        Self { snappy: snap::raw::Encoder::new(), joined: Vec::new(), output: Vec::new() }
-    }
 }
 
 impl Numbers {
@@ -99,75 +82,54 @@ impl Numbers {
         column: ColumnDescPtr,
         compressor: &mut Compressor,
     ) -> io::Result<Chunk> {
-        let Compressor { snappy, joined, output } = compressor;
+        // only the last group is not full
+        let joined: Vec<u8>;
         let streams = if self.rows == ROWS_PER_GROUP {
             &self.streams
         } else {
-            joined.clear();
-            for stream in self.streams.chunks_exact(ROWS_PER_GROUP) {
-                joined.extend_from_slice(&stream[..self.rows]);
-            }
-            joined
+            let streams = self.streams.chunks_exact(ROWS_PER_GROUP);
+            joined = streams.map(|stream| &stream[..self.rows]).collect::<Vec<_>>().concat();
+            &joined
         };
-        output.resize(snap::raw::max_compress_len(WIDTH * ROWS_PER_GROUP), 0);
-        let length = snappy.compress(streams, output).map_err(io::Error::other)?;
-        // shared with the page while it is written, and then used again
-        let whole = Bytes::from(std::mem::take(output));
-        let page = data_page(whole.slice(..length), self.rows, Encoding::BYTE_STREAM_SPLIT);
+        let page = compressor.compress(streams)?;
+        let page = data_page(page, self.rows, Encoding::BYTE_STREAM_SPLIT);
         let pages = [(page, streams.len())];
-        let chunk = Chunk::of_pages(column, self.rows, Compression::SNAPPY, pages);
-        *output = Vec::from(whole);
-        chunk
+        Chunk::of_pages(column, self.rows, Compression::SNAPPY, pages, None)
     }
 
     fn encode_constant(&self, column: ColumnDescPtr) -> io::Result<Chunk> {
-        let dictionary = Page::DictionaryPage {
-            buf: Bytes::copy_from_slice(&self.first.to_le_bytes()),
-            num_values: 1,
-            encoding: Encoding::PLAIN,
-            is_sorted: false,
-        };
-        let run = run_of_zero(self.rows);
-        let length = run.len();
-        let run = data_page(run.into(), self.rows, Encoding::RLE_DICTIONARY);
-        let pages = [(dictionary, WIDTH), (run, length)];
-        Chunk::of_pages(column, self.rows, Compression::UNCOMPRESSED, pages)
+        let only = dictionary(Bytes::copy_from_slice(&self.first.to_le_bytes()), 1);
+        let mut indices = vec![1];
+        run(&mut indices, 0, self.rows, 1);
+        let length = indices.len();
+        let indices = data_page(indices.into(), self.rows, Encoding::RLE_DICTIONARY);
+        let pages = [(only, WIDTH), (indices, length)];
+        Chunk::of_pages(column, self.rows, Compression::UNCOMPRESSED, pages, None)
     }
-}
-
-/// A page of values that are never missing.
-fn data_page(buf: Bytes, rows: usize, encoding: Encoding) -> Page {
-    Page::DataPage {
-        buf,
-        num_values: rows as u32,
-        encoding,
-        def_level_encoding: Encoding::RLE,
-        rep_level_encoding: Encoding::RLE,
-        statistics: None,
-    }
-}
-
-/// Indices to a dictionary: their width of one bit, and one run of the index 0 (the hybrid of runs and packed bits).
-fn run_of_zero(rows: usize) -> Vec<u8> {
-    let mut bytes = vec![1];
-    bytes.extend((rows << 1).encode_var_vec());
-    bytes.push(0);
-    bytes
 }
 
 /// Distributes the bytes of values to their streams, the lowest byte to the first one.
 fn split<'a>(values: &[f64], mut streams: impl Iterator<Item = &'a mut [u8]>) {
     let (eights, rest) = values.as_chunks::<WIDTH>();
-    let mut streams: [_; WIDTH] =
-        std::array::from_fn(|_| streams.next().unwrap_or_default().as_chunks_mut::<WIDTH>());
-    let mut words = [0; WIDTH];
+    let count = eights.len();
+    let mut streams: [_; WIDTH] = std::array::from_fn(|_| {
+        let (eights, rest) = streams.next().unwrap_or_default().as_chunks_mut::<WIDTH>();
+        (&mut eights[..count], rest)
+    });
     for (i, eight) in eights.iter().enumerate() {
-        for (word, value) in words.iter_mut().zip(eight) {
-            *word = value.to_bits();
+        // iterators over these eight would be calls wherever the library is not optimised together with its users
+        let (mut words, mut j) = ([0; WIDTH], 0);
+        while j < WIDTH {
+            words[j] = eight[j].to_bits();
+            j += 1;
         }
-        transpose(&mut words);
-        for ((stream, _), bytes) in streams.iter_mut().zip(&words) {
-            stream[i] = bytes.to_le_bytes();
+        exchange::<4>(&mut words, 0x0000_0000_ffff_ffff);
+        exchange::<2>(&mut words, 0x0000_ffff_0000_ffff);
+        exchange::<1>(&mut words, 0x00ff_00ff_00ff_00ff);
+        j = 0;
+        while j < WIDTH {
+            streams[j].0[i] = words[j].to_le_bytes();
+            j += 1;
         }
     }
     for (i, value) in rest.iter().enumerate() {
@@ -177,19 +139,19 @@ fn split<'a>(values: &[f64], mut streams: impl Iterator<Item = &'a mut [u8]>) {
     }
 }
 
-/// Transposes a matrix of bytes: byte `i` of word `j` becomes byte `j` of word `i`. Quarters, then their quarters, change
-/// places across the diagonal.
+/// A step of the transposition of a matrix of bytes, after which byte `i` of word `j` is byte `j` of word `i`: blocks of
+/// `DISTANCE` bytes and words, those of `mask`, change places across the diagonal.
 #[inline]
-fn transpose(words: &mut [u64; WIDTH]) {
-    const STEPS: [(usize, u64); 3] =
-        [(4, 0x0000_0000_ffff_ffff), (2, 0x0000_ffff_0000_ffff), (1, 0x00ff_00ff_00ff_00ff)];
-    for (distance, mask) in STEPS {
-        for i in (0..WIDTH).filter(|i| i & distance == 0) {
-            let bits = 8 * distance;
-            let differing = (words[i] >> bits ^ words[i + distance]) & mask;
+fn exchange<const DISTANCE: usize>(words: &mut [u64; WIDTH], mask: u64) {
+    let bits = 8 * DISTANCE;
+    let mut i = 0;
+    while i < WIDTH {
+        if i & DISTANCE == 0 {
+            let differing = (words[i] >> bits ^ words[i + DISTANCE]) & mask;
             words[i] ^= differing << bits;
-            words[i + distance] ^= differing;
+            words[i + DISTANCE] ^= differing;
         }
+        i += 1;
     }
 }
 

@@ -63,8 +63,14 @@ fn rows_that_wait_outlive_an_error_too() {
     }
 }
 
+/// Whether the groups are written once, or come from parts.
 #[test]
 fn reads_back_bit_by_bit() {
+    reads_back(false);
+    reads_back(true);
+}
+
+fn reads_back(from_parts: bool) {
     let axis = AxisFacts { name: "X".to_owned(), ..AxisFacts::default() };
     let facts = Facts {
         program: "part.nc".to_owned(),
@@ -96,7 +102,11 @@ fn reads_back_bit_by_bit() {
         let mut batch = Batch::default();
         (first..rows.min(first + 700)).for_each(|k| batch.push(&Numbers::of(&columns), &record(k)));
         writer.write(&batch).unwrap();
+        if from_parts {
+            writer.write_parts().unwrap();
+        }
     }
+    assert_eq!(writer.parts.len(), if from_parts { 2 } else { 0 });
     let totals = Totals { filter_delay_cycles: vec![12.5], ..Totals::default() };
     writer.finish(&facts, &totals).unwrap();
 
