@@ -19,10 +19,9 @@ use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::motion::banding::banding_without_motion;
-use crate::exec::motion::state::MotionState;
-use crate::exec::output::{Output, output};
+use crate::exec::output::output;
 use crate::exec::report::{Report, Subject};
-use crate::machine::{Axis, SpindleMoment};
+use crate::machine::SpindleMoment;
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_after;
 use offsets::axis_functions;
@@ -139,64 +138,6 @@ impl Modal {
             // the tool length applies along the third axis of the plane
             geometry.apply_tool(self.plane.main_axes());
         }
-    }
-}
-
-impl MotionState {
-    /// G135, G137.
-    fn switch_feedforward(&mut self, on: bool, output: &mut Output<'_>, span: Span) {
-        if self.feedforward.on == on {
-            return;
-        }
-        if on && !output.machine.axes.iter().any(Axis::has_feedforward) {
-            let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
-            let fault = Fault::new(Condition::ListNoEffect, text, span)
-                .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
-            output.report.note_once(Subject::G(135), fault);
-        }
-        self.feedforward.on = on;
-        output.contour.event(self.feedforward.event());
-    }
-
-    /// S words: speeds, cutting speeds, or signed speeds of tapping. Returns a speed that takes effect after the motion.
-    fn spindle_speeds(
-        &mut self,
-        words: &Words<'_>,
-        geometry: &Geometry,
-        modal: &Modal,
-        output: &mut Output<'_>,
-    ) -> Option<Placed> {
-        let mut late = None;
-        let taps = modal.path_mode(words).is_tapping();
-        let outcome = self.cutting_words(words, geometry, modal, output);
-        output.report.keep(outcome);
-        let cuts = self.cutting.takes_s_words(words);
-        for (i, speed, span) in &words.speeds {
-            // for the main spindle, tapping and constant cutting speed process it
-            if *i == 0 {
-                self.threads.speed(taps.then_some(*speed));
-                if taps {
-                    // the S word is modal: it counts for M3 after the thread, the sign is that of the thread
-                    self.spindles[0].rpm = speed.abs();
-                    self.spindles[0].check_speed(output.machine, output.report, *span);
-                }
-            }
-            if *i != 0 {
-                let name = self.spindles[*i].name.clone();
-                let text =
-                    format!("{name} is not the main spindle: its speed must be in a bracket");
-                let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
-                output.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
-            } else if !(taps || cuts) {
-                let alone = !functions::turns_spindle(words);
-                if alone && self.spindles[0].speeds_up_late(&output.machine.channel) {
-                    late = Some((*speed, *span));
-                } else {
-                    self.s_word(0, *speed, alone, output, *span);
-                }
-            }
-        }
-        late
     }
 }
 

@@ -14,7 +14,7 @@ use crate::exec::motion::weight::Weight;
 use crate::exec::output::Output;
 use crate::exec::report::{Report, Subject};
 use crate::exec::step::Event;
-use crate::machine::Tool;
+use crate::machine::{Axis, Tool};
 use crate::syntax::ast::Span;
 
 /// A weight in percent as a ratio.
@@ -52,6 +52,21 @@ impl Modal {
 }
 
 impl MotionState {
+    /// G135, G137.
+    pub(super) fn switch_feedforward(&mut self, on: bool, output: &mut Output<'_>, span: Span) {
+        if self.feedforward.on == on {
+            return;
+        }
+        if on && !output.machine.axes.iter().any(Axis::has_feedforward) {
+            let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
+            let fault = Fault::new(Condition::ListNoEffect, text, span)
+                .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
+            output.report.note_once(Subject::G(135), fault);
+        }
+        self.feedforward.on = on;
+        output.contour.event(self.feedforward.event());
+    }
+
     /// G40 with G239: the tool keeps its position, and the program continues from there.
     fn deselect_in_place(
         &mut self,

@@ -2,9 +2,11 @@
 
 use super::{After, CallAfter, Then};
 use crate::diag::Condition;
-use crate::exec::block::collected::{Code, Words};
+use crate::exec::block::collected::{Code, Placed, Words};
+use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
+use crate::exec::geometry::Geometry;
 use crate::exec::motion::spindles::Turning;
 use crate::exec::motion::state::{Function, MotionState};
 use crate::exec::output::{Output, output};
@@ -26,7 +28,7 @@ enum MKind {
 }
 
 /// Whether a block has M3, M4, M5 or M19.
-pub(super) fn turns_spindle(words: &Words<'_>) -> bool {
+fn turns_spindle(words: &Words<'_>) -> bool {
     words.m.iter().any(|m| m_kind(m.number) == MKind::Spindle)
 }
 
@@ -83,6 +85,47 @@ impl Calls {
 }
 
 impl MotionState {
+    /// S words: speeds, cutting speeds, or signed speeds of tapping. Returns a speed that takes effect after the motion.
+    pub(super) fn spindle_speeds(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        modal: &Modal,
+        output: &mut Output<'_>,
+    ) -> Option<Placed> {
+        let mut late = None;
+        let taps = modal.path_mode(words).is_tapping();
+        let outcome = self.cutting_words(words, geometry, modal, output);
+        output.report.keep(outcome);
+        let cuts = self.cutting.takes_s_words(words);
+        for (i, speed, span) in &words.speeds {
+            // for the main spindle, tapping and constant cutting speed process it
+            if *i == 0 {
+                self.threads.speed(taps.then_some(*speed));
+                if taps {
+                    // the S word is modal: it counts for M3 after the thread, the sign is that of the thread
+                    self.spindles[0].rpm = speed.abs();
+                    self.spindles[0].check_speed(output.machine, output.report, *span);
+                }
+            }
+            if *i != 0 {
+                let name = self.spindles[*i].name.clone();
+                let text =
+                    format!("{name} is not the main spindle: its speed must be in a bracket");
+                let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
+                output.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
+            } else if !(taps || cuts) {
+                let alone = !turns_spindle(words);
+                if alone && self.spindles[0].speeds_up_late(&output.machine.channel) {
+                    late = Some((*speed, *span));
+                } else {
+                    self.s_word(0, *speed, alone, output, *span);
+                }
+            }
+        }
+        late
+    }
+
     /// An S word; `alone`: the block has no M function of the spindle, whose synchronisation counts instead of that of the speed (M19, then M3
     /// to M5, then S: 208010763).
     pub(super) fn s_word(
