@@ -14,6 +14,7 @@ mod live;
 mod motion;
 mod names;
 mod options;
+mod output;
 mod program;
 mod report;
 mod shaping;

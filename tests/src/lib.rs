@@ -67,9 +67,14 @@ impl Run {
         self.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
     }
 
+    /// The cycles in which a line of the program moves or waits, in their order.
+    pub fn of_line(&self, line: u32) -> impl DoubleEndedIterator<Item = &CycleRecord> + Clone {
+        self.records.iter().filter(move |r| r.line == line)
+    }
+
     /// Cycles by which `set` of X is later than `ipo` in the middle of the motion of a line along X, at constant speed.
     pub fn delay_cycles(&self, line: u32) -> f64 {
-        let of_line: Vec<_> = self.records.iter().filter(|r| r.line == line).collect();
+        let of_line: Vec<_> = self.of_line(line).collect();
         assert!(!of_line.is_empty(), "{:?}", self.diagnostics);
         let middle = of_line[of_line.len() / 2];
         assert!(middle.path.a_mm_s2.abs() < 1e-9, "{middle:?}");

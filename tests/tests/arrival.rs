@@ -90,23 +90,6 @@ fn both_sides_of_a_gantry() {
     }
 }
 
-/// The speed of a gantry slave is monitored neither as a set position (50118, 285764875) nor in its controller (70382, 117763467):
-/// at 300 mm/s both would be exceeded by more than the 9 and 1 % that its list permits.
-#[test]
-fn speed_of_a_gantry_slave() {
-    for (v_um_s, monitors) in [(100_000, ""), (290_000, "; X2.lr_param.dyn_monitoring_v_err=10")] {
-        let limits = format!("X2.getriebe[0]: dynamik.vb_max={v_um_s}, vb_eilgang=100000");
-        let machine = sample_machine("gantry", format!("{limits}{monitors}").as_str());
-        let run = run_on(machine, "%P\nG90\nG01 X100 F18000\nM30\n");
-        assert_eq!(run.ids(), [0; 0], "{:?}", run.diagnostics);
-    }
-}
-
-/// Largest magnitude of the speed of the spindle in rev/min.
-fn most_rpm(run: &Run) -> f64 {
-    run.axis(3, |a| a.vel / 6.0).iter().fold(0.0, |most: f64, v| most.max(v.abs()))
-}
-
 /// P-AXIS-00236 and P-AXIS-00532 of a spindle: a stop that takes too long, in degrees.
 #[test]
 fn a_spindle_that_does_not_arrive() {
@@ -117,16 +100,6 @@ fn a_spindle_that_does_not_arrive() {
     assert_eq!(only(&late).0, Id::Vendor(70082));
     let text = &errors(&late)[0].text;
     assert!(text.contains("deg") && !text.contains("mm"), "{text}");
-}
-
-/// A speed above P-AXIS-00212 is limited, with a message.
-#[test]
-fn a_speed_above_the_limit_is_said() {
-    let run = run("%P\nM3 S15000\nG04 2\nM30\n", &[]);
-    let [d] = &run.diagnostics[..] else { panic!("{:?}", run.diagnostics) };
-    assert_eq!((d.id, d.is_error(), line(d)), (Id::Kontur(131), false, 2));
-    assert!(d.text.contains("15000") && d.text.contains("12000"), "{}", d.text);
-    assert!((most_rpm(&run) - 12_000.0).abs() < 1e-6);
 }
 
 /// `#CHANNEL INIT [ACTPOS]` (206709515): the actual position becomes the set position. The set position goes back by the lag, and the

@@ -25,7 +25,7 @@ fn at(record: &CycleRecord) -> [f64; 2] {
 
 /// Records of a line of the program in which the path rests, except those at its end.
 fn rests(run: &Run, line: u32) -> Vec<&CycleRecord> {
-    let of_line: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
+    let of_line: Vec<_> = run.of_line(line).collect();
     let end = at(of_line.last().unwrap());
     of_line.into_iter().filter(|r| r.path.v_mm_s == 0.0 && at(r) != end).collect()
 }
@@ -53,13 +53,13 @@ fn the_path_stops_after_the_surface_and_continues() {
     let (v, a) = (20.0, 1000.0 * 2.0_f64.sqrt());
     let first = stop[0].k as usize;
     let braking = (v / a / run.cycle_s).ceil() as usize;
-    let of_line = run.records.iter().filter(|r| r.line == 5 && (r.k as usize) < first - braking);
+    let of_line = run.of_line(5).filter(|r| (r.k as usize) < first - braking);
     assert!(of_line.clone().count() > 1000);
     for r in of_line.skip(20) {
         near(r.path.v_mm_s, v, 1e-9);
     }
     // the end of the block is a corner of 45 deg and not a stop
-    let end = run.records.iter().filter(|r| r.line == 6).map(|r| r.path.v_mm_s);
+    let end = run.of_line(6).map(|r| r.path.v_mm_s);
     assert!(end.clone().next().unwrap() > 0.0);
     assert_eq!(at(run.records.last().unwrap()), [200.0, 150.0]);
     let functions = run.totals.not_counted.iter().filter(|f| *f == "M97").count();
@@ -158,7 +158,7 @@ fn random_lines() {
         let along = surface * libm::hypot(written(end[0]), written(end[1])) / written(end[0])
             + written(way);
         // where the filters of the guard delay both axes equally the measured point lies on the line
-        let of_line = run.records.iter().filter(|r| r.line == line);
+        let of_line = run.of_line(line);
         let stop = of_line.filter(|r| r.path.v_mm_s == 0.0).any(|r| {
             let [x, y] = at(r);
             (libm::hypot(x, y) - along).abs() < 1e-6

@@ -15,7 +15,7 @@ fn feedforward_keeps_the_arc() {
             &program(&["G00 X20 Y0", first, "G04 1", "G03 X20 Y0 I-20 J0 F6000"]),
             &["X.getriebe[0].kv=5000", "Y.getriebe[0].kv=2500"],
         );
-        let arc = run.records.iter().filter(|r| r.line == 5);
+        let arc = run.of_line(5);
         let radius = |r: &kontur_interpreter::record::CycleRecord| {
             (libm::hypot(r.axes[0].act, r.axes[1].act) - 20.0).abs()
         };

@@ -43,7 +43,7 @@ fn new_parameters_wait_for_standstill() {
     let plain = with("G04 0.5");
     // 70603: a weight of 0 turns the function off
     let additive = |run: &Run, line| {
-        let of_line = run.records.iter().filter(|r| r.line == line);
+        let of_line = run.of_line(line);
         of_line.map(|r| r.axes[0].vadd.abs()).fold(0.0, f64::max)
     };
     assert!(additive(&changed, 2) > 1.0 && additive(&plain, 4) > 1.0);

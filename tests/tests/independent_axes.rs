@@ -44,11 +44,7 @@ fn an_axis_oscillates_beside_the_path() {
         &[],
     );
     let of_line = |run: &kontur_tests::Run| -> Vec<u64> {
-        run.records
-            .iter()
-            .filter(|r| r.line == 5 && r.path.v_mm_s > 0.0)
-            .map(|r| r.axes[0].ipo.to_bits())
-            .collect()
+        run.of_line(5).filter(|r| r.path.v_mm_s > 0.0).map(|r| r.axes[0].ipo.to_bits()).collect()
     };
     assert_eq!(of_line(&run), of_line(&alone));
     // N50 begins at the second position

@@ -283,7 +283,7 @@ fn surface_scan() {
 fn the_cycles_of_a_dwell_name_its_line() {
     let run = run("%P\nG04 0.01\nG90 G01 X1 F6000\nG04 X0.01\n#TIME 0.01\nY1\nM30\n", &[]);
     for line in [2, 4, 5] {
-        let rows: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
+        let rows: Vec<_> = run.of_line(line).collect();
         assert_eq!(rows.len(), 10, "line {line}");
         assert!(rows.iter().all(|r| r.path.v_mm_s.abs() < 1e-9), "line {line}");
     }

@@ -4,7 +4,7 @@ use kontur_tests::{Run, run};
 
 /// Set position of X, Y, Z at the end of a line of the program.
 fn end(run: &Run, line: u32) -> [f64; 3] {
-    let last = run.records.iter().rfind(|r| r.line == line).unwrap();
+    let last = run.of_line(line).next_back().unwrap();
     [0, 1, 2].map(|i| last.axes[i].set)
 }
 
@@ -35,12 +35,7 @@ fn an_arc_through_three_points() {
     ] {
         let run = run(&format!("%P\n{text}\nG90 G01 Z-1\nM30\n"), &[]);
         assert_eq!(run.diagnostics, [], "{text}");
-        let arc: Vec<[f64; 3]> = run
-            .records
-            .iter()
-            .filter(|r| r.line == 3)
-            .map(|r| [0, 1, 2].map(|i| r.axes[i].set))
-            .collect();
+        let arc: Vec<[f64; 3]> = run.of_line(3).map(|r| [0, 1, 2].map(|i| r.axes[i].set)).collect();
         let nearest = arc.iter().map(|p| distance(*p, m)).fold(f64::MAX, f64::min);
         assert!(nearest < 0.05, "the interim point is {nearest} away");
         let length: f64 = arc.windows(2).map(|w| distance(w[0], w[1])).sum();
@@ -73,10 +68,10 @@ fn contour_lines_of_two_angles() {
     assert!(nearest.fold(f64::MAX, f64::min) < 0.02);
     assert!(near(end(&run, 6), [100.0, 0.0, 80.0], 1e-9));
     // the first line has a line of the program of its own
-    let first = run.records.iter().filter(|r| r.line == 4).count();
-    let second = run.records.iter().filter(|r| r.line == 5).count();
+    let first = run.of_line(4).count();
+    let second = run.of_line(5).count();
     assert!(first > 100 && second > 100, "{first} {second}");
-    for r in run.records.iter().filter(|r| r.line == 4) {
+    for r in run.of_line(4) {
         let (z, x) = (r.axes[2].set - 10.0, r.axes[0].set - 5.0);
         assert!(
             (z * libm::sin(a) - x * libm::cos(a)).abs() < 1e-6 || z > s * libm::cos(a),

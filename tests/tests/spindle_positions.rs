@@ -5,7 +5,7 @@ use kontur_tests::{Run, run};
 
 /// Set angle of the spindle at the end of a line of the program, counted over the revolutions, in deg.
 fn angle(run: &Run, line: u32) -> f64 {
-    run.records[run.records.iter().rposition(|r| r.line == line).unwrap()].axes[3].set
+    run.of_line(line).next_back().unwrap().axes[3].set
 }
 
 fn turns(deg: f64) -> f64 {
@@ -58,8 +58,7 @@ fn change(text: &str, us: [u32; 4], line: u32) -> [f64; 4] {
     let run = run(&format!("%P\n{text}\nM30\n"), &ramps(us));
     assert_eq!(run.diagnostics, []);
     let t = run.cycle_s;
-    let set: Vec<f64> =
-        run.records.iter().filter(|r| r.line == line).map(|r| r.axes[3].set).collect();
+    let set: Vec<f64> = run.of_line(line).map(|r| r.axes[3].set).collect();
     let v: Vec<f64> = set.windows(2).map(|w| (w[1] - w[0]) / t).collect();
     let a: Vec<f64> = v.windows(2).map(|w| (w[1] - w[0]) / t).collect();
     let peak = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));

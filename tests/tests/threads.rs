@@ -187,7 +187,7 @@ fn passes_of_a_thread_lie_in_each_other() {
             let third = apart(passes[0] + sense * 0.5, passes[2], 1.5);
             assert!(third < 1e-7, "{passes:?}");
             for (line, z) in [(3, -40.0), (12, -40.0), (13, -41.0)] {
-                let last = run.records.iter().rfind(|r| r.line == line).unwrap().axes[Z].set;
+                let last = run.of_line(line).next_back().unwrap().axes[Z].set;
                 assert!((last - z).abs() < 1e-9, "line {line}: {last}");
             }
         }

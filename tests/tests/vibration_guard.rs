@@ -71,7 +71,7 @@ fn the_command_activates_all_axes() {
     let diagonal = kernel_delay(2, 40.0, 0.1) / 3.0_f64.sqrt();
     near(run.delay_cycles(4), diagonal);
     near(run.delay_cycles(5), -diagonal);
-    for r in run.records.iter().filter(|r| r.line == 7) {
+    for r in run.of_line(7) {
         assert_eq!(r.axes[0].set.to_bits(), r.axes[0].ipo.to_bits());
     }
 }

@@ -14,7 +14,7 @@ fn grinding() -> (Machine, Vec<Diagnostic>) {
 
 /// Additional positions of X, Y and Z in the middle of a line; its end belongs to the corner.
 fn added(run: &Run, line: u32) -> [f64; 3] {
-    let records: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
+    let records: Vec<_> = run.of_line(line).collect();
     let record = records[records.len() / 2];
     [0, 1, 2].map(|axis| record.axes[axis].add)
 }
@@ -36,7 +36,7 @@ fn square(otc: &str, side: &str) -> String {
 fn the_ways_to_the_contour_and_back_are_without_wear() {
     let wear = [(0.0, "wear_mm", 0.5)];
     let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
-    let approach = run.records.iter().filter(|r| r.line == 3);
+    let approach = run.of_line(3);
     assert!(approach.clone().count() > 10);
     for r in approach {
         assert!(r.axes[..3].iter().all(|a| a.add == 0.0), "at {}", r.k);
@@ -52,9 +52,9 @@ fn wear_by_the_way_grows_with_it() {
     // 1e5 units of 0.1 um per metre are 10 mm per metre
     let text = square("#OTC ON [RADIUS CONT WEAR_CONST=100000]", "G42");
     let run = run_with_inputs(grinding(), &text, &[]);
-    let start = run.records.iter().rfind(|r| r.line == 3).unwrap().path.s_mm;
+    let start = run.of_line(3).next_back().unwrap().path.s_mm;
     for line in 4..=7 {
-        let records: Vec<_> = run.records.iter().filter(|r| r.line == line).collect();
+        let records: Vec<_> = run.of_line(line).collect();
         let middle = records[records.len() / 2];
         let offset: f64 = middle.axes[..3].iter().map(|a| a.add * a.add).sum::<f64>().sqrt();
         let wear = (middle.path.s_mm - start) * 0.01;

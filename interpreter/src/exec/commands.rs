@@ -347,39 +347,37 @@ fn words_after(call: &Call<'_>) -> Option<Span> {
     word.or(value.map(|value| value.span))
 }
 
-impl Decoder {
-    /// Executes a plain-text command.
-    pub(super) fn execute_command(&mut self, command: &Command) -> Outcome<()> {
-        self.dialect.own_statement();
-        let Some((row, count)) = find(command) else { return Err(unknown(command)) };
-        let call = Call { command, name: row.name, rest: &command.words[count..] };
-        if let Some(span) = words_after(&call) {
-            let text = format!("{}: another word after it in its block", call.title());
-            return Err(Fault::new(Condition::WordsBehindCommand, text, span));
-        }
-        exceptions::fits_compensation(self, &call)?;
-        match row.act {
-            Act::Run(f) => row.takes(command).and_then(|()| f(self, &call)).map_err(|fault| {
-                // the expected syntax is more helpful than a reference
-                let general = condition::row(Condition::TokenUnknown.id()).hint;
-                let unhinted = fault.diagnostic.id == Condition::TokenUnknown.id()
-                    && fault.diagnostic.hint.as_deref() == general;
-                if unhinted && !row.form.is_empty() {
-                    fault.hint(format!("write {}", row.form))
-                } else {
-                    fault
-                }
-            }),
-            Act::OffOnly if command.on == Some(false) => Ok(()),
-            Act::OffOnly | Act::Unsupported => Err(refused::refused(self, &call)),
-            Act::Ignored(text) => {
-                if let Some(fault) = refused::keys_wrong(&call) {
-                    return Err(fault);
-                }
-                let text = format!("{}: {text}", call.title());
-                self.report.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));
-                Ok(())
+/// Executes a plain-text command.
+pub(super) fn execute(decoder: &mut Decoder, command: &Command) -> Outcome<()> {
+    decoder.dialect.own_statement();
+    let Some((row, count)) = find(command) else { return Err(unknown(command)) };
+    let call = Call { command, name: row.name, rest: &command.words[count..] };
+    if let Some(span) = words_after(&call) {
+        let text = format!("{}: another word after it in its block", call.title());
+        return Err(Fault::new(Condition::WordsBehindCommand, text, span));
+    }
+    exceptions::fits_compensation(decoder, &call)?;
+    match row.act {
+        Act::Run(f) => row.takes(command).and_then(|()| f(decoder, &call)).map_err(|fault| {
+            // the expected syntax is more helpful than a reference
+            let general = condition::row(Condition::TokenUnknown.id()).hint;
+            let unhinted = fault.diagnostic.id == Condition::TokenUnknown.id()
+                && fault.diagnostic.hint.as_deref() == general;
+            if unhinted && !row.form.is_empty() {
+                fault.hint(format!("write {}", row.form))
+            } else {
+                fault
             }
+        }),
+        Act::OffOnly if command.on == Some(false) => Ok(()),
+        Act::OffOnly | Act::Unsupported => Err(refused::refused(decoder, &call)),
+        Act::Ignored(text) => {
+            if let Some(fault) = refused::keys_wrong(&call) {
+                return Err(fault);
+            }
+            let text = format!("{}: {text}", call.title());
+            decoder.report.note_once(row.name, Fault::new(Condition::Ignored, text, call.span()));
+            Ok(())
         }
     }
 }

@@ -247,6 +247,14 @@ impl Contour {
         faults
     }
 
+    /// Stops the path after the last motion, with K-0111 once if that keeps a corner which would be rounded.
+    pub(super) fn stop(&mut self, what: Sync, report: &mut Report) {
+        if self.loses_corner(&what) {
+            note_lost_corner(report);
+        }
+        report.extend(self.sync(what, report.source));
+    }
+
     /// A step at standstill.
     pub(super) fn sync(&mut self, what: Sync, source: SourceRef) -> Vec<Fault> {
         if self.akima.runs() && self.akima.selected {
@@ -387,4 +395,11 @@ impl Contour {
     pub(super) fn take_violations(&mut self) -> Vec<Fault> {
         std::mem::take(&mut self.violations)
     }
+}
+
+/// K-0111 once: the stop that follows keeps a corner which would be rounded.
+pub(super) fn note_lost_corner(report: &mut Report) {
+    let text = "the path stops here, so that the corner before it is not rounded";
+    let fault = Fault::new(Condition::Fallback, text, Span::default());
+    report.note_once("corner", fault);
 }

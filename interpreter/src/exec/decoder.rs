@@ -14,7 +14,7 @@ use super::options::Options;
 use super::program::state::Calls;
 use super::report::Report;
 use super::shaping::{ShapingState, Worked};
-use super::step::{Event, Sync};
+use super::step::Sync;
 use super::values::Values;
 use crate::diag::{Condition, Diagnostic};
 use crate::machine::{Axis, Machine};
@@ -116,25 +116,9 @@ impl Decoder {
         if matches!(what, Sync::FlushWait) {
             self.motion.independent.all_arrived();
         }
-        let faults = self.stop_contour(what);
-        self.report.extend(faults);
-        let outside = self.limits_of_compensated();
-        self.report.extend(outside);
-    }
-
-    /// Stops the path after the last motion, with K-0111 once if that keeps a corner which would be rounded.
-    pub(super) fn stop_contour(&mut self, what: Sync) -> Vec<Fault> {
-        if self.contour.loses_corner(&what) {
-            self.note_lost_corner();
-        }
-        self.contour.sync(what, self.report.source)
-    }
-
-    /// K-0111 once: the stop that follows keeps a corner which would be rounded.
-    pub(super) fn note_lost_corner(&mut self) {
-        let text = "the path stops here, so that the corner before it is not rounded";
-        let fault = Fault::new(Condition::Fallback, text, Span::default());
-        self.report.note_once("corner", fault);
+        self.contour.stop(what, &mut self.report);
+        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+        self.report.extend(self.contour.take_outside(&limits));
     }
 
     /// Sets the axes to their real positions; all of them if none is named. The setpoint moves back by the following error,
@@ -193,8 +177,8 @@ impl Decoder {
         let limits_mm = changed.software_limits_mm();
         let overrides = self.shaping.overrides(&listed, &changed.kernel_preset(cycle));
         // the whole list counts again, also instead of limits set by G98 or G99 (207492747)
-        self.limit_axis(axis, limits_mm);
-        self.report_consequences(axis, &known, span);
+        self.geometry.limit_axis(axis, limits_mm, &mut self.contour);
+        report_consequences(&self.machine, axis, &known, &mut self.report, span);
         self.axis_changes(self.machine.axes[axis].number(), span);
         if let Some(command) = overrides {
             let text = format!("{key}: no effect, {command} of the program takes precedence");
@@ -202,21 +186,6 @@ impl Decoder {
             self.report.note(fault.hint(format!("write the value into {command}")));
         }
         Ok(())
-    }
-
-    /// Consequences of changed parameters of a path axis: a filter that cannot be designed with the new value, an input that the
-    /// drive does not have. Those that were `known` before the change are not repeated.
-    pub(super) fn report_consequences(&mut self, axis: usize, known: &[Diagnostic], span: Span) {
-        let issues = self.machine.chain_issues(axis);
-        for diagnostic in issues.into_iter().filter(|issue| !known.contains(issue)) {
-            self.report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
-        }
-    }
-
-    /// Other software limits of an axis from here on, for set positions and, with the next step, for actual ones.
-    pub(super) fn limit_axis(&mut self, axis: usize, limits_mm: Option<(f64, f64)>) {
-        self.geometry.limits_mm[axis] = limits_mm;
-        self.contour.event(Event::SoftwareLimits { axis, limits_mm });
     }
 
     /// The parameters of an axis or spindle, given by its logical number, have changed: the path stops, and its chain is replaced.
@@ -229,16 +198,6 @@ impl Decoder {
         self.contour.event(self.motion.feedforward.event());
     }
 
-    /// Names of several characters that the parser must recognise.
-    pub(super) fn long_names(&self) -> Vec<String> {
-        let axes = self.names.in_channel().map(str::to_owned);
-        let main = [self.machine.channel.spindles.main_name.clone()];
-        axes.chain(self.motion.spindles.iter().map(|s| s.name.clone()))
-            .chain(main)
-            .filter(|n| n.len() > 1)
-            .collect()
-    }
-
     /// Recomputes the shaping; a changed kernel requires the path at standstill.
     pub(super) fn update_shaping(&mut self, span: Span) {
         let Worked { setup, diagnostics } = self.shaping.work_out(&self.machine);
@@ -249,5 +208,20 @@ impl Decoder {
             self.shaping.setup = setup.clone();
             self.sync(Sync::Shaping(Box::new(setup)));
         }
+    }
+}
+
+/// Consequences of changed parameters of a path axis: a filter that cannot be designed with the new value, an input that the
+/// drive does not have. Those that were `known` before the change are not repeated.
+pub(super) fn report_consequences(
+    machine: &Machine,
+    axis: usize,
+    known: &[Diagnostic],
+    report: &mut Report,
+    span: Span,
+) {
+    for diagnostic in machine.chain_issues(axis).into_iter().filter(|issue| !known.contains(issue))
+    {
+        report.note(Fault::of(Diagnostic { source: None, ..diagnostic }, span));
     }
 }

@@ -99,7 +99,7 @@ impl Decoder {
             self.report.note(Fault::new(Condition::AreaOfArcs, text, span));
             return;
         }
-        let fits = self.scaling_fits(words, span);
+        let fits = self.geometry.scaling_fits(words, &self.modal, &self.contour, span);
         if self.report.keep(fits).is_none() {
             return;
         }
@@ -121,8 +121,19 @@ impl Decoder {
         span: Span,
     ) -> Outcome<()> {
         let is_arc = matches!(self.modal.path, PathMode::Clockwise | PathMode::CounterClockwise);
-        let contour_line = self.contour_line(words)?;
-        self.arc_angle(words, is_arc)?;
+        let contour_line = self.motion.contour_line.contour_line(
+            words,
+            &self.geometry,
+            &self.machine,
+            &self.modal,
+            self.report.source,
+        )?;
+        self.motion.contour_line.arc_angle(
+            words,
+            is_arc,
+            &self.geometry.coordinates,
+            &self.modal,
+        )?;
         let unit = self.modal.unit_mm();
         let too_large = |(x, _): &&(f64, Span)| (x * unit).abs() > LARGEST_MM;
         if is_arc && let Some((x, span)) = words.centre.iter().flatten().find(too_large) {

@@ -46,6 +46,13 @@ impl AxisNames {
         self.axes.iter().flatten().map(String::as_str)
     }
 
+    /// Names of several characters that the parser must recognise, of the axes in the channel and of spindles.
+    pub(super) fn long_names<'a>(&self, of_spindles: impl Iterator<Item = &'a str>) -> Vec<String> {
+        let long = |name: &&str| name.len() > 1;
+        let axes = self.in_channel().filter(long).map(str::to_owned);
+        axes.chain(of_spindles.filter(long).map(str::to_owned)).collect()
+    }
+
     /// The names by axis, `?` for a released one.
     pub(super) fn all(&self) -> Vec<String> {
         (0..self.axes.len()).map(|axis| self.name(axis).to_owned()).collect()

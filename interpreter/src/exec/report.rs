@@ -67,8 +67,12 @@ impl Report {
     }
 
     /// Adds several conditions of the current block.
+    #[inline]
     pub(super) fn extend(&mut self, faults: Vec<Fault>) {
-        self.faults.extend(faults);
+        // most blocks have none
+        if !faults.is_empty() {
+            self.faults.extend(faults);
+        }
     }
 
     /// Allows a condition to be reported again about this subject.

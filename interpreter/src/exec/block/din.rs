@@ -17,9 +17,11 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::commands::addition;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::motion::banding::banding_without_motion;
+use crate::exec::output::output;
 use crate::exec::report::{Report, Subject};
-use crate::machine::{Axis, SpindleMoment};
+use crate::machine::SpindleMoment;
 use crate::syntax::ast::{Call, Jump, Return, Span, Word};
 use insertions::inserts_after;
 use offsets::axis_functions;
@@ -54,6 +56,16 @@ pub(in crate::exec) enum Then<'b> {
     End,
 }
 
+/// What the settings of a block leave to its motion.
+struct Settings {
+    /// The G function whose arguments the axis words are.
+    takes_axes: Option<GWord>,
+    /// The axis words are arguments of a command: nothing moves.
+    arguments_only: bool,
+    /// A speed of the main spindle that takes effect after the motion.
+    late_speed: Option<Placed>,
+}
+
 /// Largest value of G115; larger ones are 20712 instead of 20151. Assumption: the data format has 16 bits.
 const LOOK_AHEAD_FORMAT: u32 = 65535;
 
@@ -85,6 +97,48 @@ impl Modal {
         self.feeds[self.feed_type as usize] = Some(word);
         Ok(())
     }
+
+    fn planes_and_units(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &mut Geometry,
+        report: &mut Report,
+    ) {
+        for g in &words.g {
+            match g.row.act {
+                Act::Plane(plane) => self.set_plane(plane, geometry, report, g.span),
+                Act::Inch(inch) => self.inch = inch,
+                Act::Absolute(absolute) => self.absolute = absolute,
+                // before G41 in the same block
+                Act::Corners(corners) => self.corners = corners,
+                _ => {}
+            }
+        }
+    }
+
+    fn set_plane(
+        &mut self,
+        plane: Plane,
+        geometry: &mut Geometry,
+        report: &mut Report,
+        span: Span,
+    ) {
+        if plane != self.plane && self.compensation != Compensation::Off {
+            let text = "the plane cannot be changed while tool radius compensation is active";
+            report.note(Fault::new(Condition::PlaneWithCompensation, text, span));
+            return;
+        }
+        if plane != self.plane && geometry.coordinates.rotation().is_some() {
+            let text = "changing the plane switches the contour rotation off";
+            report.note(Fault::new(Condition::Odd, text, span).warning());
+            geometry.coordinates.set_rotation(None);
+        }
+        if plane != self.plane {
+            self.plane = plane;
+            // the tool length applies along the third axis of the plane
+            geometry.apply_tool(self.plane.main_axes());
+        }
+    }
 }
 
 impl Decoder {
@@ -100,29 +154,14 @@ impl Decoder {
             return After::default();
         }
         self.dialect.guard(&words, &mut self.report);
-        self.planes_and_units(&words);
-        let takes_axes = axis_functions(&words, &mut self.report);
-        let at_once = self.machine.channel.offsets.tools_at_once;
-        let tool_before = at_once.then(|| self.geometry.coordinates.tool().clone());
-        self.tools_and_offsets(&words, takes_axes);
-        if let Some(before) = tool_before {
-            self.tool_moves(&before, &mut words, takes_axes);
-        }
-        let preset = self.scaling_words(&words)
-            || self.position_presets(&words)
-            || self.contour.akima.spline_vectors(&words, &mut self.report);
-        self.motion.feed_before = self.modal.feed();
-        self.feeds_and_modes(&words, takes_axes);
-        // after G04 the S word is a number of revolutions, after G74 a sequence, after G112 a gear stage
-        let arguments =
-            |g: &GWord| matches!(g.row.act, Act::Dwell | Act::Gear) || g.row.number == 74;
-        let is_speed = !words.g.iter().any(arguments);
-        let late_speed = is_speed.then(|| self.spindle_speeds(&words)).flatten();
-        if let Err(fault) = self.leaves_the_spindle(&words) {
+        let Settings { takes_axes, arguments_only, late_speed } = self.settings(&mut words);
+        if let Err(fault) =
+            self.motion.leaves_the_spindle(&words, &self.modal, &self.machine.channel)
+        {
             self.report.note(fault);
             return After::default();
         }
-        self.functions_before(&words);
+        self.motion.functions_before(&words, &self.calls, output!(self));
         let (late, early): (Vec<_>, Vec<_>) =
             words.brackets.iter().copied().partition(|bracket| self.acts_late(bracket));
         for bracket in early {
@@ -130,13 +169,19 @@ impl Decoder {
             self.report.keep(outcome);
         }
         self.technology_wait(SpindleMoment::BeforeMotion);
-        let banding = self.banding_run(&words);
+        let banding = self.motion.banding_run(
+            &words,
+            &self.geometry,
+            &self.modal,
+            &self.names,
+            output!(self),
+        );
         let banding = self.report.keep(banding).flatten();
-        if !preset {
+        if !arguments_only {
             self.motion_or_dwell(&words, takes_axes, span);
         }
         if inserts_after(&words) {
-            self.insertions(&words);
+            self.modal.insertions(&words, &self.geometry, &self.motion, output!(self));
         }
         if let Some(at) = banding
             && !self.moved
@@ -144,9 +189,10 @@ impl Decoder {
         {
             self.report.note(banding_without_motion(&words, at));
         }
-        self.join_synchronous();
+        let synchronous = self.motion.independent.take_synchronous();
+        self.join(synchronous);
         if let Some((speed, span)) = late_speed {
-            self.speed(0, speed, true, span);
+            self.motion.s_word(0, speed, true, output!(self), span);
         }
         for bracket in late {
             let outcome = self.bracket(bracket, &words);
@@ -161,70 +207,32 @@ impl Decoder {
         after
     }
 
-    /// S words: speeds, cutting speeds, or signed speeds of tapping. Returns a speed that takes effect after the motion.
-    fn spindle_speeds(&mut self, words: &Words<'_>) -> Option<Placed> {
-        let mut late = None;
-        let taps = self.modal.path_mode(words).is_tapping();
-        let outcome = self.cutting_words(words);
-        self.report.keep(outcome);
-        let cuts = self.motion.cutting.takes_s_words(words);
-        for (i, speed, span) in &words.speeds {
-            // for the main spindle, tapping and constant cutting speed process it
-            if *i == 0 {
-                self.motion.threads.speed(taps.then_some(*speed));
-                if taps {
-                    // the S word is modal: it counts for M3 after the thread, the sign is that of the thread
-                    self.motion.spindles[0].rpm = speed.abs();
-                    self.motion.spindles[0].check_speed(&self.machine, &mut self.report, *span);
-                }
-            }
-            if *i != 0 {
-                let name = self.motion.spindles[*i].name.clone();
-                let text =
-                    format!("{name} is not the main spindle: its speed must be in a bracket");
-                let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
-                self.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
-            } else if !(taps || cuts) {
-                let alone = !functions::turns_spindle(words);
-                if alone && self.motion.spindles[0].speeds_up_late(&self.machine.channel) {
-                    late = Some((*speed, *span));
-                } else {
-                    self.speed(0, *speed, alone, *span);
-                }
-            }
+    /// Executes what precedes the functions and the motion of a block.
+    fn settings(&mut self, words: &mut Words<'_>) -> Settings {
+        self.modal.planes_and_units(words, &mut self.geometry, &mut self.report);
+        let takes_axes = axis_functions(words, &mut self.report);
+        let at_once = self.machine.channel.offsets.tools_at_once;
+        let tool_before = at_once.then(|| self.geometry.coordinates.tool().clone());
+        self.tools_and_offsets(words, takes_axes);
+        if let Some(before) = tool_before {
+            let outcome =
+                self.geometry.tool_moves(&before, words, takes_axes, &self.machine, &self.modal);
+            self.report.keep(outcome);
         }
-        late
-    }
-
-    fn planes_and_units(&mut self, words: &Words<'_>) {
-        for g in &words.g {
-            match g.row.act {
-                Act::Plane(plane) => self.set_plane(plane, g.span),
-                Act::Inch(inch) => self.modal.inch = inch,
-                Act::Absolute(absolute) => self.modal.absolute = absolute,
-                // before G41 in the same block
-                Act::Corners(corners) => self.modal.corners = corners,
-                _ => {}
-            }
-        }
-    }
-
-    fn set_plane(&mut self, plane: Plane, span: Span) {
-        if plane != self.modal.plane && self.modal.compensation != Compensation::Off {
-            let text = "the plane cannot be changed while tool radius compensation is active";
-            self.report.note(Fault::new(Condition::PlaneWithCompensation, text, span));
-            return;
-        }
-        if plane != self.modal.plane && self.geometry.coordinates.rotation().is_some() {
-            let text = "changing the plane switches the contour rotation off";
-            self.report.note(Fault::new(Condition::Odd, text, span).warning());
-            self.geometry.coordinates.set_rotation(None);
-        }
-        if plane != self.modal.plane {
-            self.modal.plane = plane;
-            // the tool length applies along the third axis of the plane
-            self.geometry.apply_tool(self.modal.plane.main_axes());
-        }
+        let arguments_only =
+            self.geometry.scaling_words(words, &self.machine, &self.names, &mut self.report)
+                || self.geometry.position_presets(words, &self.modal, &self.names, output!(self))
+                || self.contour.akima.spline_vectors(words, &mut self.report);
+        self.motion.feed_before = self.modal.feed();
+        self.feeds_and_modes(words, takes_axes);
+        // after G04 the S word is a number of revolutions, after G74 a sequence, after G112 a gear stage
+        let arguments =
+            |g: &GWord| matches!(g.row.act, Act::Dwell | Act::Gear) || g.row.number == 74;
+        let is_speed = !words.g.iter().any(arguments);
+        let late_speed = is_speed
+            .then(|| self.motion.spindle_speeds(words, &self.geometry, &self.modal, output!(self)))
+            .flatten();
+        Settings { takes_axes, arguments_only, late_speed }
     }
 
     fn feeds_and_modes(&mut self, words: &Words<'_>, takes_axes: Option<GWord>) {
@@ -248,13 +256,15 @@ impl Decoder {
         if let Some(g) = takes_axes {
             let outcome = match g.row.act {
                 Act::WeightOfAxes(weight) => self.weights_of_axes(&g, weight, words),
-                Act::FeedforwardWeights => self.feedforward_weights(&g, words),
+                Act::FeedforwardWeights => {
+                    self.motion.feedforward_weights(&g, words, output!(self))
+                }
                 _ => Ok(()),
             };
             self.report.keep(outcome);
         }
         if !inserts_after(words) {
-            self.insertions(words);
+            self.modal.insertions(words, &self.geometry, &self.motion, output!(self));
         }
     }
 
@@ -300,7 +310,7 @@ impl Decoder {
                 let ratio = weight_ratio((g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
-            Act::Feedforward(on) => self.feedforward(on, g.span),
+            Act::Feedforward(on) => self.motion.switch_feedforward(on, output!(self), g.span),
             // Assumption: without axes, every transition is a stop; the pages do not define the values of the axes
             Act::StopAtTransitions(_) if !words.axes.is_empty() => {
                 let what = format!("G{} with axes", g.row.number);
@@ -314,7 +324,17 @@ impl Decoder {
             }
             Act::LookAheadFunctions => look_ahead_functions(g, &mut self.report)?,
             Act::Compensation(side) => self.compensation(side, g.span)?,
-            Act::Diameter(on) => self.diameter_programming(on, g.span)?,
+            Act::Diameter(false) => self.modal.diameter = None,
+            Act::Diameter(true) => {
+                let axis = self.geometry.diameter_axis(
+                    self.modal.plane,
+                    &self.machine,
+                    &self.names,
+                    &mut self.report,
+                    g.span,
+                )?;
+                self.modal.diameter = Some(axis);
+            }
             Act::Spline(false) if self.contour.hsc.spline().is_some() => {
                 let text = "a spline is deselected (G150) while #HSC ON [BSPLINE] is active";
                 return Err(Fault::new(Condition::SplineInSurface, text, g.span));
@@ -337,7 +357,7 @@ impl Decoder {
             }
             Act::Simplified(how) => {
                 if g.row.number == 74 {
-                    self.home(g, words)?;
+                    self.geometry.home(g, words, &self.motion.couplings)?;
                 }
                 let text = format!("G{}: {how}", g.row.number);
                 let fault = Fault::new(Condition::Fallback, text, g.span);
@@ -346,21 +366,6 @@ impl Decoder {
             _ => {}
         }
         Ok(())
-    }
-
-    /// G135, G137.
-    fn feedforward(&mut self, on: bool, span: Span) {
-        if self.motion.feedforward.on == on {
-            return;
-        }
-        if on && !self.machine.axes.iter().any(Axis::has_feedforward) {
-            let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
-            let fault = Fault::new(Condition::ListNoEffect, text, span)
-                .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
-            self.report.note_once(Subject::G(135), fault);
-        }
-        self.motion.feedforward.on = on;
-        self.contour.event(self.motion.feedforward.event());
     }
 }
 

@@ -5,13 +5,16 @@ use super::collected::{GWord, Placed, Words};
 use super::groups::{Act, Group};
 use super::modal::Modal;
 use crate::diag::{Condition, ValueKind};
+use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::state::Function;
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::state::{Function, MotionState};
 use crate::exec::motion::weight::Weight;
+use crate::exec::output::Output;
 use crate::exec::report::{Report, Subject};
 use crate::exec::step::Event;
-use crate::machine::Tool;
+use crate::machine::{Axis, Tool};
 use crate::syntax::ast::Span;
 
 /// A weight in percent as a ratio.
@@ -44,6 +47,67 @@ impl Modal {
                 .with(|d| d.value(ValueKind::Wrong, g.row.number, "-")));
         }
         self.selection = selection;
+        Ok(())
+    }
+}
+
+impl MotionState {
+    /// G135, G137.
+    pub(super) fn switch_feedforward(&mut self, on: bool, output: &mut Output<'_>, span: Span) {
+        if self.feedforward.on == on {
+            return;
+        }
+        if on && !output.machine.axes.iter().any(Axis::has_feedforward) {
+            let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
+            let fault = Fault::new(Condition::ListNoEffect, text, span)
+                .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
+            output.report.note_once(Subject::G(135), fault);
+        }
+        self.feedforward.on = on;
+        output.contour.event(self.feedforward.event());
+    }
+
+    /// G40 with G239: the tool keeps its position, and the program continues from there.
+    fn deselect_in_place(
+        &mut self,
+        coordinates: &mut Coordinates,
+        contour: &mut Contour,
+        report: &mut Report,
+    ) {
+        let (left, faults) = contour.deselect_in_place();
+        for fault in faults {
+            report.note(Box::new(fault));
+        }
+        let Some((plane, at)) = left else { return };
+        let mut target = coordinates.target().clone();
+        for (axis, x) in plane.into_iter().zip(at) {
+            target[axis] = x + self.independent.way[axis];
+        }
+        coordinates.set_target(&target);
+        self.follow_masters(coordinates);
+        self.left_contour = true;
+    }
+
+    /// G136: weights of feedforward in percent, at most 100.
+    pub(in crate::exec) fn feedforward_weights(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+        output: &mut Output<'_>,
+    ) -> Outcome<()> {
+        if words.axes.is_empty() {
+            return Err(Fault::new(Condition::Syntax, "G136 without axis words", g.span)
+                .hint("write the weights of the axes in percent: G136 X100 Y100"));
+        }
+        if let Some((_, value, span)) = words.axes.iter().find(|(_, value, _)| *value < 0.0) {
+            let text = format!("feedforward weight {value} % is negative");
+            return Err(Fault::new(Condition::FeedforwardNegative, text, *span));
+        }
+        for (axis, value, span) in &words.axes {
+            let percent = limited_weight(*value, *span, output.report);
+            self.feedforward.weight_ratios[*axis] = percent / 100.0;
+        }
+        output.contour.event(self.feedforward.event());
         Ok(())
     }
 }
@@ -109,28 +173,6 @@ impl Decoder {
             let ratio = weight_ratio((*value, *span))?;
             self.set_weight(weight, Some(*axis), ratio, *span);
         }
-        Ok(())
-    }
-
-    /// G136: weights of feedforward in percent, at most 100.
-    pub(in crate::exec) fn feedforward_weights(
-        &mut self,
-        g: &GWord,
-        words: &Words<'_>,
-    ) -> Outcome<()> {
-        if words.axes.is_empty() {
-            return Err(Fault::new(Condition::Syntax, "G136 without axis words", g.span)
-                .hint("write the weights of the axes in percent: G136 X100 Y100"));
-        }
-        if let Some((_, value, span)) = words.axes.iter().find(|(_, value, _)| *value < 0.0) {
-            let text = format!("feedforward weight {value} % is negative");
-            return Err(Fault::new(Condition::FeedforwardNegative, text, *span));
-        }
-        for (axis, value, span) in &words.axes {
-            let percent = limited_weight(*value, *span, &mut self.report);
-            self.motion.feedforward.weight_ratios[*axis] = percent / 100.0;
-        }
-        self.contour.event(self.motion.feedforward.event());
         Ok(())
     }
 
@@ -202,24 +244,8 @@ impl Decoder {
             let outcome = self.geometry.compensates_tool(span);
             self.report.keep(outcome);
         }
-        let applied = self.apply_wear(span);
+        let applied = self.motion.apply_wear(&self.geometry, &self.modal, &mut self.contour, span);
         self.motion.wear.on &= self.report.keep(applied).is_some();
-    }
-
-    /// G40 with G239: the tool keeps its position, and the program continues from there.
-    fn deselect_in_place(&mut self) {
-        let (left, faults) = self.contour.deselect_in_place();
-        for fault in faults {
-            self.report.note(Box::new(fault));
-        }
-        let Some((plane, at)) = left else { return };
-        let mut target = self.geometry.coordinates.target().clone();
-        for (axis, x) in plane.into_iter().zip(at) {
-            target[axis] = x + self.motion.independent.way[axis];
-        }
-        self.geometry.coordinates.set_target(&target);
-        self.motion.follow_masters(&mut self.geometry.coordinates);
-        self.motion.left_contour = true;
     }
 
     /// G40, G41, G42.
@@ -240,7 +266,11 @@ impl Decoder {
         }
         let leaves = side == Compensation::Off && self.modal.compensation != Compensation::Off;
         if leaves && self.modal.selection == Selection::WithoutBlock {
-            self.deselect_in_place();
+            self.motion.deselect_in_place(
+                &mut self.geometry.coordinates,
+                &mut self.contour,
+                &mut self.report,
+            );
         }
         self.modal.compensation = side;
         self.contour.deselect(side == Compensation::Off);

@@ -145,7 +145,9 @@ impl Decoder {
                 Ok(())
             }
             WordKind::Assign(assign) => self.assignment(assign, span, block),
-            WordKind::MacroDefinition(definition) => self.define_macro(definition, span),
+            WordKind::MacroDefinition(definition) => {
+                self.calls.define_macro(definition, &self.machine.channel, &mut self.report, span)
+            }
             WordKind::MacroUse(name) => Err(self.calls.undefined_macro(name, span)),
             WordKind::Hash(hash) if hash.name.split(' ').next() == Some("ADD") => {
                 block.addition = Some((hash, span));

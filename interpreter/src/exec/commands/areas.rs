@@ -137,7 +137,13 @@ fn begin(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
 
 fn end(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    decoder.end_area(call.span())
+    decoder.motion.end_area(
+        &mut decoder.geometry,
+        &decoder.modal,
+        &decoder.names,
+        &mut decoder.report,
+        call.span(),
+    )
 }
 
 /// ALL, and the ID.

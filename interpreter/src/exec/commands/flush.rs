@@ -20,16 +20,16 @@ pub(super) fn may_flush(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     decoder.contour.may_flush(&call.title(), call.span())
 }
 
-impl Decoder {
-    /// Neither in a B-spline nor between the two blocks of a contour line.
-    fn may_flush_here(&self, what: &str, span: Span) -> Outcome<()> {
-        self.contour.may_flush(what, span)?;
-        self.motion.contour_line.may_flush(what, span)
-    }
+/// Neither in a B-spline nor between the two blocks of a contour line.
+fn may_flush_here(decoder: &Decoder, what: &str, span: Span) -> Outcome<()> {
+    decoder.contour.may_flush(what, span)?;
+    decoder.motion.contour_line.may_flush(what, span)
+}
 
+impl Decoder {
     /// The implicit `#FLUSH WAIT` of a word.
     pub(in crate::exec) fn flush_before(&mut self, what: &str, span: Span) -> Outcome<()> {
-        self.may_flush_here(what, span)?;
+        may_flush_here(self, what, span)?;
         self.sync(Sync::FlushWait);
         Ok(())
     }
@@ -37,7 +37,7 @@ impl Decoder {
 
 /// `#FLUSH`, `#FLUSH CONTINUE`, `#FLUSH WAIT`.
 fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
-    decoder.may_flush_here(&call.title(), call.span())?;
+    may_flush_here(decoder, &call.title(), call.span())?;
     match call.rest {
         [] => decoder.sync(Sync::Stop),
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),

@@ -195,7 +195,12 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             let (frame, number) = system_of(decoder, call, groups)?;
             no_modulo_axes(decoder, call)?;
             turns_alike(decoder, call, &frame)?;
-            decoder.none_independent(&call.title(), call.span())?;
+            decoder.motion.independent.none_independent(
+                &call.title(),
+                &decoder.geometry.coordinates,
+                &decoder.names,
+                call.span(),
+            )?;
             decoder.geometry.coordinates.push_system(frame, number);
             Ok(())
         }

@@ -97,7 +97,12 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     if ["TRAFO", "RTCP"].contains(&call.name) {
         if !off {
-            decoder.none_independent(&call.title(), call.span())?;
+            decoder.motion.independent.none_independent(
+                &call.title(),
+                &decoder.geometry.coordinates,
+                &decoder.names,
+                call.span(),
+            )?;
         }
         decoder.geometry.transformation_on = !off;
     }

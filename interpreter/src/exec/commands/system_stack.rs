@@ -134,7 +134,12 @@ fn select(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let place = place(decoder, name(group)?)?;
     changes(decoder, call)?;
     frames::no_modulo_axes(decoder, call)?;
-    decoder.none_independent(&call.title(), call.span())?;
+    decoder.motion.independent.none_independent(
+        &call.title(),
+        &decoder.geometry.coordinates,
+        &decoder.names,
+        call.span(),
+    )?;
     decoder.geometry.coordinates.stack_select(place + 1);
     Ok(())
 }

@@ -92,7 +92,7 @@ fn wear(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         decoder.contour.event(Event::Wear(None));
     }
     // after an error the function counts as on, so that OFF does not cause a second error
-    decoder.apply_wear(call.span())
+    decoder.motion.apply_wear(&decoder.geometry, &decoder.modal, &mut decoder.contour, call.span())
 }
 
 /// Two exclusive words.

@@ -10,12 +10,15 @@ use crate::diag::Condition;
 use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
+use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::coordinates::Target;
 use crate::exec::report::Report;
 use crate::exec::step::SourceRef;
+use crate::machine::Machine;
 use crate::syntax::ast::Span;
 
 /// Sine of the angle between two lines below which they count as parallel.
@@ -92,14 +95,19 @@ impl ContourLines {
             _ => Ok(()),
         }
     }
-}
 
-impl Decoder {
     /// Applies `#ANG` to the current block.
-    pub(super) fn contour_line(&mut self, words: &Words<'_>) -> Outcome<ContourLine> {
+    pub(super) fn contour_line(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        machine: &Machine,
+        modal: &Modal,
+        source: SourceRef,
+    ) -> Outcome<ContourLine> {
         let angle = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "ANG");
         let Some((_, angle, span)) = angle else {
-            self.motion.contour_line.ends_before(words)?;
+            self.ends_before(words)?;
             return Ok(ContourLine::Single);
         };
         let span = *span;
@@ -107,18 +115,16 @@ impl Decoder {
             return Err(Fault::new(Condition::Syntax, "#ANG without an angle", span)
                 .hint("write the angle to the first axis in deg: #ANG=30"));
         };
-        let axes = self.axes_of_contour_lines(words, span)?;
-        let here = axes.map(|axis| self.geometry.coordinates.programmed(axis));
-        let end = axes.map(|axis| self.end_of_contour_line(words, axis));
-        match (self.motion.contour_line.open.take(), end) {
+        let axes = geometry.axes_of_contour_lines(words, modal, span)?;
+        let here = axes.map(|axis| geometry.coordinates.programmed(axis));
+        let end = axes.map(|axis| geometry.end_of_contour_line(words, axis, machine, modal));
+        match (self.open.take(), end) {
             (None, [None, None]) => {
                 let inserts = words.group(Group::Insertion).is_some()
                     || words.group(Group::Transition).is_some()
                     || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
                 let refused = inserts || !words.axes.is_empty();
-                let source = self.report.source;
-                self.motion.contour_line.open =
-                    Some(FirstLine { angle_deg: angle, span, source, refused });
+                self.open = Some(FirstLine { angle_deg: angle, span, source, refused });
                 if refused {
                     let what = "the first of two contour lines with other words of motion";
                     return Err(Fault::unsupported(what, span));
@@ -133,8 +139,7 @@ impl Decoder {
                 let given = usize::from(x.is_none());
                 let (value, _) = x.or(y).unwrap_or_default();
                 let value = end_of_line(angle, here, given, value, span)?;
-                self.motion.contour_line.targets =
-                    vec![Target { axis: axes[1 - given], value, absolute: true }];
+                self.targets = vec![Target { axis: axes[1 - given], value, absolute: true }];
                 Ok(ContourLine::Single)
             }
             (Some(first_line), [Some((x, true)), Some((y, true))]) => {
@@ -156,34 +161,49 @@ impl Decoder {
             }
         }
     }
+}
 
+impl Geometry {
     /// End of a contour line along an axis in the coordinates of the program, and whether it is programmed in absolute ones.
-    fn end_of_contour_line(&self, words: &Words<'_>, axis: usize) -> Option<(f64, bool)> {
+    fn end_of_contour_line(
+        &self,
+        words: &Words<'_>,
+        axis: usize,
+        machine: &Machine,
+        modal: &Modal,
+    ) -> Option<(f64, bool)> {
         let i = words.axes.iter().position(|(a, _, _)| *a == axis)?;
-        let absolute = words.is_absolute(i, self.modal.absolute);
-        let value = words.axes[i].1 * self.coordinate_unit(axis, absolute);
-        let from = self.geometry.coordinates.programmed(axis);
+        let absolute = words.is_absolute(i, modal.absolute);
+        let value = words.axes[i].1 * self.coordinate_unit(axis, absolute, machine, modal);
+        let from = self.coordinates.programmed(axis);
         Some((if absolute { value } else { from + value }, absolute))
     }
 
     /// The axes of the plane in which `#ANG` draws lines.
-    fn axes_of_contour_lines(&self, words: &Words<'_>, span: Span) -> Outcome<[usize; 2]> {
+    fn axes_of_contour_lines(
+        &self,
+        words: &Words<'_>,
+        modal: &Modal,
+        span: Span,
+    ) -> Outcome<[usize; 2]> {
         let mode = match words.group(Group::Path).map(|g| g.row.act) {
             Some(crate::exec::block::groups::Act::Path(mode)) => mode,
-            _ => self.modal.path,
+            _ => modal.path,
         };
         if !matches!(mode, PathMode::Linear | PathMode::Rapid) {
             return Err(Fault::unsupported("#ANG in another motion than a straight one", span));
         }
-        let [first, second, _] = self.modal.plane.main_axes();
-        let plane = [first, second].map(|m| self.geometry.coordinates.main_axis(m));
+        let [first, second, _] = modal.plane.main_axes();
+        let plane = [first, second].map(|m| self.coordinates.main_axis(m));
         let [Some(first), Some(second)] = plane else {
             let text = "the plane of #ANG has no axis in the channel";
             return Err(Fault::new(Condition::MainAxisMissing, text, span));
         };
         Ok([first, second])
     }
+}
 
+impl Decoder {
     /// The first of two lines, while the second one is still to be read.
     pub(super) fn contour_lines(
         &mut self,
@@ -197,7 +217,11 @@ impl Decoder {
         for (m, value) in [main[0], main[1]].into_iter().zip(corner) {
             if let Some(axis) = self.geometry.coordinates.main_axis(m) {
                 let at = words.axes.first().map_or(span, |(_, _, at)| *at);
-                first.axes.push((axis, value / self.coordinate_unit(axis, true), at));
+                first.axes.push((
+                    axis,
+                    value / self.geometry.coordinate_unit(axis, true, &self.machine, &self.modal),
+                    at,
+                ));
             }
         }
         first.dimensions.push((0, true));

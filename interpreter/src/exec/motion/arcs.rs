@@ -12,11 +12,12 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::angle::{cos_deg, sin_deg};
 use crate::exec::geometry::arc::{self, Arc, ArcError};
-use crate::exec::geometry::coordinates::Target;
-use crate::exec::report::Subject;
+use crate::exec::geometry::coordinates::{Coordinates, Target};
+use crate::exec::motion::state::{ContourLines, MotionState};
+use crate::exec::report::{Report, Subject};
 use crate::exec::values::number::LARGEST_MM;
-use crate::machine::Channel;
 use crate::machine::table::channel as of;
+use crate::machine::{ArcCentre, Channel};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
@@ -87,6 +88,157 @@ impl Geometry {
             (0..3).find(|i| !plane.contains(i)).and_then(|m| self.coordinates.main_axis(m));
         normal.map_or(0.0, |axis| end[axis] - start[axis])
     }
+
+    /// Centre in axis coordinates, or in program coordinates if the plane is oblique to the axes; `way`: independent travel of
+    /// the axes.
+    fn centre(
+        &self,
+        start: &AxisVec,
+        plane: &PlaneImage,
+        words: [Option<Placed>; 2],
+        modal: &Modal,
+        way: &AxisVec,
+    ) -> [f64; 2] {
+        let values = words.map(|word| word.map_or(0.0, |(value, _)| value * modal.unit_mm()));
+        let [first, second] = plane.main;
+        let of =
+            |axes: &AxisVec, m: usize| self.coordinates.main_axis(m).map_or(0.0, |axis| axes[axis]);
+        let from = [of(start, first), of(start, second)];
+        if plane.tilt.is_some() {
+            if modal.centre_absolute {
+                return values;
+            }
+            return [from[0] + values[0], from[1] + values[1]];
+        }
+        let main = modal.plane.main_axes();
+        let mut p = [0.0; 3];
+        (p[main[0]], p[main[1]]) = (values[0], values[1]);
+        if modal.centre_absolute {
+            let q = self.coordinates.to_machine(p);
+            return [q[first] - of(way, first), q[second] - of(way, second)];
+        }
+        let d = self.coordinates.frame().direction(p);
+        [from[0] + d[first], from[1] + d[second]]
+    }
+
+    /// Keeps centre and radius of an arc for the system variables and for arcs that refer to it; `absolute`: its centre was
+    /// programmed in absolute coordinates.
+    fn keep_arc(
+        &mut self,
+        arc: &Arc,
+        start: &AxisVec,
+        plane: [usize; 2],
+        absolute: bool,
+        way: &AxisVec,
+    ) {
+        let centre_mm = [0, 1].map(|k| arc.centre[k] - start[plane[k]]);
+        let last = &mut self.last_arc;
+        (last.centre_mm, last.programmed_mm, last.shift_mm) = (centre_mm, centre_mm, arc.shift);
+        last.radius_mm = libm::hypot(centre_mm[0], centre_mm[1]);
+        if absolute {
+            let mut centre = start.clone();
+            for k in 0..2 {
+                centre[plane[k]] = arc.centre[k] + way[plane[k]];
+            }
+            let programmed = self.coordinates.program_at(&centre);
+            self.last_arc.programmed_mm = plane.map(|axis| programmed[axis]);
+        }
+    }
+}
+
+impl ContourLines {
+    /// `#CANG`: the end of an arc given by the centre and the angle of the arc instead of an end point.
+    ///
+    /// Source: TF5200 diagnosis, 22253; no page prints more. Assumption: the angle is in degrees and positive, its direction
+    /// is that of G02 or G03.
+    pub(super) fn arc_angle(
+        &mut self,
+        words: &Words<'_>,
+        is_arc: bool,
+        coordinates: &Coordinates,
+        modal: &Modal,
+    ) -> Outcome<()> {
+        let Some((_, angle, at)) = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "CANG")
+        else {
+            return Ok(());
+        };
+        let at = *at;
+        if !is_arc {
+            let text = "#CANG needs G02 or G03";
+            return Err(Fault::new(Condition::Syntax, text, at)
+                .hint("write the arc in this block: G02 I5 #CANG=90"));
+        }
+        let Some(angle) = angle.filter(|angle| *angle > 0.0 && *angle <= 360.0) else {
+            let text = "#CANG needs an angle above 0 and up to 360 deg";
+            return Err(Fault::new(Condition::Range, text, at));
+        };
+        let [first, second, _] = modal.plane.main_axes();
+        let plane = [first, second].map(|m| coordinates.main_axis(m));
+        let [Some(x), Some(y)] = plane else {
+            let text = "the plane of the arc has no axis in the channel";
+            return Err(Fault::new(Condition::AxisOrCommandExpected, text, at));
+        };
+        if let Some((_, _, end)) = words.axes.iter().find(|(axis, _, _)| *axis == x || *axis == y) {
+            let text = "#CANG together with an end point in the plane of the arc";
+            return Err(Fault::new(Condition::CircleAngleAndEnd, text, *end));
+        }
+        let centre = [words.centre[first], words.centre[second]];
+        if centre.iter().all(Option::is_none) {
+            let text = "#CANG without a centre";
+            return Err(Fault::new(Condition::ArcRadiusZero, text, at).hint("write I, J or K"));
+        }
+        let here = [x, y].map(|axis| coordinates.programmed(axis));
+        let given = centre.map(|word| word.map_or(0.0, |(value, _)| value * modal.unit_mm()));
+        let to_centre =
+            if modal.centre_absolute { [given[0] - here[0], given[1] - here[1]] } else { given };
+        let counter = modal.path == PathMode::CounterClockwise;
+        let (sin, cos) = (sin_deg(angle), cos_deg(angle));
+        let sin = if counter { sin } else { -sin };
+        // the vector from the centre to the start, rotated
+        let [a, b] = to_centre;
+        let end = [here[0] + a - (a * cos - b * sin), here[1] + b - (a * sin + b * cos)];
+        self.targets = vec![
+            Target { axis: x, value: end[0], absolute: true },
+            Target { axis: y, value: end[1], absolute: true },
+        ];
+        Ok(())
+    }
+}
+
+impl MotionState {
+    /// 120462 if the feed group is neither the axes of the arc (with its pitch) nor only axes outside it.
+    ///
+    /// The page does not define F for this case. Here it is the feed rate in the plane, as without `#FGROUP`.
+    fn feed_group_fits(
+        &self,
+        plane: [usize; 2],
+        coordinates: &Coordinates,
+        channel: &Channel,
+        report: &mut Report,
+        span: Span,
+    ) -> Outcome<()> {
+        let feed = self.limits.feed_axes();
+        // the group of the lists consists of the main axes, also after an axis exchange
+        if *feed == channel.feed.axes {
+            return Ok(());
+        }
+        let in_group = |axis: usize| feed.get(axis).copied().unwrap_or(false);
+        let is_main = |axis: usize| coordinates.main_index(axis).is_some();
+        let group = || (0..feed.len()).filter(|axis| in_group(*axis));
+        let whole = plane.into_iter().all(in_group) && group().all(is_main);
+        if !group().any(is_main) && group().next().is_some() {
+            return Err(Fault::unsupported(
+                "an arc whose F applies along other axes (#FGROUP)",
+                span,
+            ));
+        }
+        if whole || group().next().is_none() {
+            return Ok(());
+        }
+        let text = "the axes of #FGROUP are not those of the arc: F applies in the plane";
+        report.note_once(Subject::Only, Fault::new(Condition::FeedGroupOfArc, text, span));
+        Ok(())
+    }
 }
 
 impl Decoder {
@@ -95,19 +247,16 @@ impl Decoder {
         let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
         // in a plane oblique to the axes, the arc is given in the coordinate system
-        let PlaneImage { main: image, keeps_sense, tilt } = self.geometry.image_of_plane(
-            self.modal.plane.main_axes(),
-            &self.motion.independent.way,
-            span,
-        )?;
-        let (start, end) = match &tilt {
+        let way = &self.motion.independent.way;
+        let image = self.geometry.image_of_plane(main, way, span)?;
+        let (start, end) = match &image.tilt {
             Some(tilt) => local_ends(tilt, from, &target),
             None => (from.clone(), target.clone()),
         };
-        let plane = self.geometry.axes_of_plane(image, span)?;
+        let plane = self.geometry.axes_of_plane(image.main, span)?;
         let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
         let (s, e) = (in_plane(&start), in_plane(&end));
-        let ccw = (self.modal.path == PathMode::CounterClockwise) == keeps_sense;
+        let ccw = (self.modal.path == PathMode::CounterClockwise) == image.keeps_sense;
         let scale = self.geometry.scale_of_plane([main[0], main[1]], span)?;
         let centre_words = self
             .modal
@@ -120,8 +269,10 @@ impl Decoder {
         }
         let g = words.group(Group::Path).map_or(span, |g| g.span);
         let found = if has_centre {
-            let centre = self.centre(&start, main, image, tilt.is_some(), centre_words);
-            self.arc_by_centre([s, e], centre, ccw, g)
+            let centre = self.geometry.centre(&start, &image, centre_words, &self.modal, way);
+            let limits = &self.machine.channel.arc_centre;
+            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
+                .inspect(|arc| note_moved_centre(arc, [s, e], centre, limits, &mut self.report, g))
         } else if let Some(radius) = self.modal.radius_mm {
             arc::by_radius(s, e, radius * scale, ccw)
         } else {
@@ -137,7 +288,7 @@ impl Decoder {
             return Err(Fault::new(Condition::CentreTooFar, text, at));
         }
         if let Some((pitch, at)) = words.centre[main[2]].filter(|(pitch, _)| *pitch != 0.0) {
-            let height = self.geometry.height_over(image, [&start, &end]);
+            let height = self.geometry.height_over(image.main, [&start, &end]);
             let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
             if height == 0.0 {
                 let text = "a pitch has no meaning without travel along the third axis";
@@ -146,175 +297,43 @@ impl Decoder {
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
             }
         }
-        let absolute = self.modal.centre_absolute && has_centre && tilt.is_none();
-        self.keep_arc(&arc, &start, plane, absolute);
-        self.geometry.last_arc.plane = image;
+        let absolute = self.modal.centre_absolute && has_centre && image.tilt.is_none();
+        self.geometry.keep_arc(&arc, &start, plane, absolute, way);
+        self.geometry.last_arc.plane = image.main;
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
-        self.feed_group_fits(plane, span)?;
+        self.motion.feed_group_fits(
+            plane,
+            &self.geometry.coordinates,
+            &self.machine.channel,
+            &mut self.report,
+            span,
+        )?;
         let arc = ArcPath::new(start, end, shape, self.motion.limits.feed_axes())
             .ok_or_else(|| arc_fault(ArcError::RadiusZero, at))?;
-        Ok(match tilt {
+        Ok(match image.tilt {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
     }
+}
 
-    /// An arc by its centre, from one point of the plane to another. Where G165 moves a centre that G164 would refuse, K-0109
-    /// says so at the G function of the path.
-    fn arc_by_centre(
-        &mut self,
-        [s, e]: [[f64; 2]; 2],
-        centre: [f64; 2],
-        ccw: bool,
-        g: Span,
-    ) -> Result<Arc, ArcError> {
-        let limits = &self.machine.channel.arc_centre;
-        let arc = arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)?;
-        if let Err(ArcError::RadiiDiffer { start, end, .. }) =
-            arc::radii_agree(s, e, centre, limits)
-        {
-            let text = format!(
-                "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
-                (start - end).abs(),
-                libm::hypot(arc.shift[0], arc.shift[1])
-            );
-            let fault = Fault::new(Condition::Odd, text, g);
-            self.report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
-        }
-        Ok(arc)
-    }
-
-    /// Keeps centre and radius of an arc for the system variables and for arcs that refer to it; `absolute`: its centre was
-    /// programmed in absolute coordinates.
-    fn keep_arc(&mut self, arc: &Arc, start: &AxisVec, plane: [usize; 2], absolute: bool) {
-        let centre_mm = [0, 1].map(|k| arc.centre[k] - start[plane[k]]);
-        let last = &mut self.geometry.last_arc;
-        (last.centre_mm, last.programmed_mm, last.shift_mm) = (centre_mm, centre_mm, arc.shift);
-        last.radius_mm = libm::hypot(centre_mm[0], centre_mm[1]);
-        if absolute {
-            let mut centre = start.clone();
-            for k in 0..2 {
-                centre[plane[k]] = arc.centre[k] + self.motion.independent.way[plane[k]];
-            }
-            let programmed = self.geometry.coordinates.program_at(&centre);
-            self.geometry.last_arc.programmed_mm = plane.map(|axis| programmed[axis]);
-        }
-    }
-
-    /// 120462 if the feed group is neither the axes of the arc (with its pitch) nor only axes outside it.
-    ///
-    /// The page does not define F for this case. Here it is the feed rate in the plane, as without `#FGROUP`.
-    fn feed_group_fits(&mut self, plane: [usize; 2], span: Span) -> Outcome<()> {
-        let feed = self.motion.limits.feed_axes();
-        // the group of the lists consists of the main axes, also after an axis exchange
-        if *feed == self.machine.channel.feed.axes {
-            return Ok(());
-        }
-        let in_group = |axis: usize| feed.get(axis).copied().unwrap_or(false);
-        let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
-        let group = || (0..feed.len()).filter(|axis| in_group(*axis));
-        let whole = plane.into_iter().all(in_group) && group().all(is_main);
-        if !group().any(is_main) && group().next().is_some() {
-            return Err(Fault::unsupported(
-                "an arc whose F applies along other axes (#FGROUP)",
-                span,
-            ));
-        }
-        if whole || group().next().is_none() {
-            return Ok(());
-        }
-        let text = "the axes of #FGROUP are not those of the arc: F applies in the plane";
-        self.report.note_once(Subject::Only, Fault::new(Condition::FeedGroupOfArc, text, span));
-        Ok(())
-    }
-
-    /// `#CANG`: the end of an arc given by the centre and the angle of the arc instead of an end point.
-    ///
-    /// Source: TF5200 diagnosis, 22253; no page prints more. Assumption: the angle is in degrees and positive, its direction
-    /// is that of G02 or G03.
-    pub(super) fn arc_angle(&mut self, words: &Words<'_>, is_arc: bool) -> Outcome<()> {
-        let Some((_, angle, at)) = words.hashes.iter().find(|(hash, _, _)| &*hash.name == "CANG")
-        else {
-            return Ok(());
-        };
-        let at = *at;
-        if !is_arc {
-            let text = "#CANG needs G02 or G03";
-            return Err(Fault::new(Condition::Syntax, text, at)
-                .hint("write the arc in this block: G02 I5 #CANG=90"));
-        }
-        let Some(angle) = angle.filter(|angle| *angle > 0.0 && *angle <= 360.0) else {
-            let text = "#CANG needs an angle above 0 and up to 360 deg";
-            return Err(Fault::new(Condition::Range, text, at));
-        };
-        let [first, second, _] = self.modal.plane.main_axes();
-        let plane = [first, second].map(|m| self.geometry.coordinates.main_axis(m));
-        let [Some(x), Some(y)] = plane else {
-            let text = "the plane of the arc has no axis in the channel";
-            return Err(Fault::new(Condition::AxisOrCommandExpected, text, at));
-        };
-        if let Some((_, _, end)) = words.axes.iter().find(|(axis, _, _)| *axis == x || *axis == y) {
-            let text = "#CANG together with an end point in the plane of the arc";
-            return Err(Fault::new(Condition::CircleAngleAndEnd, text, *end));
-        }
-        let centre = [words.centre[first], words.centre[second]];
-        if centre.iter().all(Option::is_none) {
-            let text = "#CANG without a centre";
-            return Err(Fault::new(Condition::ArcRadiusZero, text, at).hint("write I, J or K"));
-        }
-        let here = [x, y].map(|axis| self.geometry.coordinates.programmed(axis));
-        let given = centre.map(|word| word.map_or(0.0, |(value, _)| value * self.modal.unit_mm()));
-        let to_centre = if self.modal.centre_absolute {
-            [given[0] - here[0], given[1] - here[1]]
-        } else {
-            given
-        };
-        let counter = self.modal.path == PathMode::CounterClockwise;
-        let (sin, cos) = (sin_deg(angle), cos_deg(angle));
-        let sin = if counter { sin } else { -sin };
-        // the vector from the centre to the start, rotated
-        let [a, b] = to_centre;
-        let end = [here[0] + a - (a * cos - b * sin), here[1] + b - (a * sin + b * cos)];
-        self.motion.contour_line.targets = vec![
-            Target { axis: x, value: end[0], absolute: true },
-            Target { axis: y, value: end[1], absolute: true },
-        ];
-        Ok(())
-    }
-
-    /// Centre in axis coordinates, or in program coordinates if the plane is oblique to the axes.
-    pub(super) fn centre(
-        &self,
-        start: &AxisVec,
-        main: [usize; 3],
-        image: [usize; 2],
-        tilted: bool,
-        words: [Option<Placed>; 2],
-    ) -> [f64; 2] {
-        let value = |w: Option<Placed>| w.map_or(0.0, |(v, _)| v * self.modal.unit_mm());
-        let from =
-            |m: usize| self.geometry.coordinates.main_axis(m).map_or(0.0, |axis| start[axis]);
-        if tilted {
-            let c = words.map(value);
-            if self.modal.centre_absolute {
-                return c;
-            }
-            return [from(image[0]) + c[0], from(image[1]) + c[1]];
-        }
-        let mut p = [0.0; 3];
-        (p[main[0]], p[main[1]]) = (value(words[0]), value(words[1]));
-        if self.modal.centre_absolute {
-            let q = self.geometry.coordinates.to_machine(p);
-            let way = |m: usize| {
-                self.geometry
-                    .coordinates
-                    .main_axis(m)
-                    .map_or(0.0, |axis| self.motion.independent.way[axis])
-            };
-            return [q[image[0]] - way(image[0]), q[image[1]] - way(image[1])];
-        }
-        let d = self.geometry.coordinates.frame().direction(p);
-        [from(image[0]) + d[image[0]], from(image[1]) + d[image[1]]]
+/// K-0109 at the G function of the path where G165 moves a centre that G164 would refuse.
+fn note_moved_centre(
+    arc: &Arc,
+    [s, e]: [[f64; 2]; 2],
+    centre: [f64; 2],
+    limits: &ArcCentre,
+    report: &mut Report,
+    g: Span,
+) {
+    if let Err(ArcError::RadiiDiffer { start, end, .. }) = arc::radii_agree(s, e, centre, limits) {
+        let text = format!(
+            "the radii at start and end differ by {:.6} mm: the centre is moved by {:.6} mm (G165)",
+            (start - end).abs(),
+            libm::hypot(arc.shift[0], arc.shift[1])
+        );
+        let fault = Fault::new(Condition::Odd, text, g);
+        report.note_once(Subject::G(165), fault.hint("G164 refuses such arcs"));
     }
 }
 

@@ -16,13 +16,14 @@ use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Group;
 use crate::exec::block::modal::Modal;
 use crate::exec::contour::{Guarded, violated};
-use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::area::{Area, Base, Violation, overlaps};
 use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::state::MotionState;
 use crate::exec::motion::state::areas::{Areas, Draft, Heading};
 use crate::exec::names::AxisNames;
+use crate::exec::report::Report;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::Path;
@@ -180,6 +181,56 @@ impl Areas {
         }
         Ok(())
     }
+
+    /// A block of a definition, with its path if it moves.
+    pub(super) fn area_block(
+        &mut self,
+        path: Option<&Path>,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        modal: &Modal,
+        span: Span,
+    ) -> Outcome<()> {
+        if !modal.absolute {
+            return Err(Fault::unsupported("G91 in the definition of a control area", span));
+        }
+        if let Some(g) = words.group(Group::Compensation).filter(|g| g.row.number != 40) {
+            let text = format!("G{} in the definition of a control area", g.row.number);
+            return Err(Fault::new(Condition::AreaFunction, text, g.span));
+        }
+        let end = geometry.tip(geometry.coordinates.target());
+        let straight = matches!(modal.path, PathMode::Rapid | PathMode::Linear);
+        let Some(draft) = &mut self.draft else { return Ok(()) };
+        for (axis, _, _) in &words.axes {
+            if !draft.named.contains(axis) {
+                draft.named.push(*axis);
+            }
+        }
+        match path {
+            Some(circle @ Path::Arc(arc)) if draft.heading.circle => {
+                let shape = arc.shape();
+                let full = shape.sweep_rad.abs() - std::f64::consts::TAU;
+                if draft.circle.is_some() || full.abs() > 1e-9 {
+                    return Err(wrong(
+                        "the contour of a control area CIRC must be one full circle",
+                        span,
+                    ));
+                }
+                let shift = shape.plane.map(|axis| end[axis] - circle.end()[axis]);
+                let centre = [0, 1].map(|i| shape.centre_mm[i] + shift[i]);
+                draft.circle = Some((shape.plane, centre, arc.radius()));
+            }
+            _ if straight && draft.circle.is_none() => draft.points.push(end),
+            _ if straight => {
+                return Err(wrong("a motion after the circle of a control area", span));
+            }
+            _ => {
+                let text = "the contour of a control area POLY must consist of lines (G00, G01)";
+                return Err(Fault::new(Condition::AreaOfArcs, text, span));
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Draft {
@@ -223,66 +274,29 @@ impl Draft {
     }
 }
 
-impl Decoder {
-    /// A block of a definition, with its path if it moves.
-    pub(super) fn area_block(
+impl MotionState {
+    /// `#CONTROL AREA END`.
+    pub(in crate::exec) fn end_area(
         &mut self,
-        path: Option<&Path>,
-        words: &Words<'_>,
+        geometry: &mut Geometry,
+        modal: &Modal,
+        names: &AxisNames,
+        report: &mut Report,
         span: Span,
     ) -> Outcome<()> {
-        if !self.modal.absolute {
-            return Err(Fault::unsupported("G91 in the definition of a control area", span));
-        }
-        if let Some(g) = words.group(Group::Compensation).filter(|g| g.row.number != 40) {
-            let text = format!("G{} in the definition of a control area", g.row.number);
-            return Err(Fault::new(Condition::AreaFunction, text, g.span));
-        }
-        let end = self.geometry.tip(self.geometry.coordinates.target());
-        let straight = matches!(self.modal.path, PathMode::Rapid | PathMode::Linear);
-        let Some(draft) = &mut self.motion.areas.draft else { return Ok(()) };
-        for (axis, _, _) in &words.axes {
-            if !draft.named.contains(axis) {
-                draft.named.push(*axis);
-            }
-        }
-        match path {
-            Some(circle @ Path::Arc(arc)) if draft.heading.circle => {
-                let shape = arc.shape();
-                let full = shape.sweep_rad.abs() - std::f64::consts::TAU;
-                if draft.circle.is_some() || full.abs() > 1e-9 {
-                    return Err(wrong(
-                        "the contour of a control area CIRC must be one full circle",
-                        span,
-                    ));
-                }
-                let shift = shape.plane.map(|axis| end[axis] - circle.end()[axis]);
-                let centre = [0, 1].map(|i| shape.centre_mm[i] + shift[i]);
-                draft.circle = Some((shape.plane, centre, arc.radius()));
-            }
-            _ if straight && draft.circle.is_none() => draft.points.push(end),
-            _ if straight => {
-                return Err(wrong("a motion after the circle of a control area", span));
-            }
-            _ => {
-                let text = "the contour of a control area POLY must consist of lines (G00, G01)";
-                return Err(Fault::new(Condition::AreaOfArcs, text, span));
-            }
-        }
-        Ok(())
-    }
-
-    /// `#CONTROL AREA END`.
-    pub(in crate::exec) fn end_area(&mut self, span: Span) -> Outcome<()> {
-        let Some(draft) = self.motion.areas.draft.take() else {
+        let Some(draft) = self.areas.draft.take() else {
             let text = "#CONTROL AREA END without BEGIN, ignored";
-            self.report.note(Fault::new(Condition::AreaNotBegun, text, span));
+            report.note(Fault::new(Condition::AreaNotBegun, text, span));
             return Ok(());
         };
-        self.geometry.coordinates.set_target(&draft.before);
-        let plane = if draft.heading.circle { None } else { Some(self.in_plane(span)?.plane) };
-        let area = draft.area(plane, &self.geometry.coordinates, &self.names, span)?;
-        self.motion.areas.defined.insert(area.number, Arc::new(area));
+        geometry.coordinates.set_target(&draft.before);
+        let plane = if draft.heading.circle {
+            None
+        } else {
+            Some(geometry.in_plane(modal, self, span)?.plane)
+        };
+        let area = draft.area(plane, &geometry.coordinates, names, span)?;
+        self.areas.defined.insert(area.number, Arc::new(area));
         Ok(())
     }
 }

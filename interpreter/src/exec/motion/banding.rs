@@ -14,12 +14,16 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::block::choice::Compensation;
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::decoder::Decoder;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::Contour;
 use crate::exec::fault::{Fault, Outcome};
-use crate::exec::motion::state::Function;
+use crate::exec::geometry::Geometry;
+use crate::exec::motion::state::{Function, MotionState};
+use crate::exec::names::AxisNames;
+use crate::exec::output::Output;
 use crate::exec::report::Report;
 use crate::exec::step::{BandingRun, Event};
-use crate::machine::Channel;
+use crate::machine::{Channel, Machine};
 use crate::syntax::ast::Span;
 
 /// G108 that was not used.
@@ -64,67 +68,25 @@ impl Measuring {
     }
 }
 
-impl Decoder {
-    /// If edge banding is on and the block of the motion has an M function for it, the motion waits for the signal. Returns the
-    /// position of that function in the program text.
-    pub(in crate::exec) fn banding_run(&mut self, words: &Words<'_>) -> Outcome<Option<Span>> {
-        let at_signal = &self.machine.channel.functions.m_at_signal;
-        let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
-        let Some(m) = functions.next() else { return Ok(None) };
-        if let Some(second) = functions.next() {
-            let text = format!("M{} with M{}: both wait for a signal", second.number, m.number);
-            return Err(Fault::new(Condition::TwoSignalFunctions, text, second.span)
-                .with(|d| d.value(ValueKind::Current, second.number, "-")));
-        }
-        if !std::mem::take(&mut self.motion.measuring.banding) {
-            return Ok(None);
-        }
-        self.banding_fits(words, m.span)?;
-        let seconds = self.motion.counted_time_s(
-            Function::M(m.number),
-            &self.machine.channel,
-            &mut self.contour,
-        );
-        let way_mm = self.motion.measuring.residual_path_mm;
-        let run = BandingRun { way_mm, number: m.number, value: m.value, seconds };
-        self.contour.event(Event::Banding(run));
-        Ok(Some(m.span))
-    }
-
-    /// Functions that cannot be combined with edge banding.
-    fn banding_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
-        let what = if self.modal.compensation != Compensation::Off {
-            "edge banding with tool radius compensation"
-        } else if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
-            "edge banding in a spline"
-        } else if self.modal.contouring || words.has(Act::ContourOnce) {
-            "edge banding with contouring"
-        } else if self.contour.inserts() || words.group(Group::Insertion).is_some() {
-            "edge banding with chamfers and roundings"
-        } else if self.modal.path_mode(words).is_thread() {
-            "edge banding in a thread"
-        } else if self.modal.corner_deceleration
-            || words.g.iter().any(|g| matches!(g.row.act, Act::FeedOverPath | Act::FeedOverTime))
-        {
-            "edge banding with a feed that changes along the block (G13, G193, G293)"
-        } else {
-            return self.banding_axes(words, span);
-        };
-        Err(Fault::unsupported(what, span))
-    }
-
+impl Geometry {
     /// Marks the axes of the motion for edge banding.
-    fn banding_axes(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
-        let coordinates = &self.geometry.coordinates;
+    fn banding_axes(
+        &self,
+        words: &Words<'_>,
+        machine: &Machine,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<()> {
+        let coordinates = &self.coordinates;
         let main = (0..3).filter_map(|i| coordinates.main_axis(i));
-        if !main.into_iter().any(|axis| self.machine.axes[axis].bands()) {
+        if !main.into_iter().any(|axis| machine.axes[axis].bands()) {
             let text = "edge banding: none of the main axes takes part in it";
             return Err(Fault::new(Condition::NoBandingAxis, text, span));
         }
         for (axis, _, at) in &words.axes {
-            let listed = &self.machine.axes[*axis];
+            let listed = &machine.axes[*axis];
             if coordinates.main_index(*axis).is_some() && !listed.bands() {
-                let name = self.names.name(*axis).to_owned();
+                let name = names.name(*axis).to_owned();
                 let number = listed.number();
                 let text = format!("axis {name} moves but does not take part in edge banding");
                 return Err(Fault::new(Condition::MovedWithoutBanding, text, *at)
@@ -132,6 +94,63 @@ impl Decoder {
             }
         }
         Ok(())
+    }
+}
+
+impl Contour {
+    /// Functions that cannot be combined with edge banding.
+    fn banding_fits(&self, words: &Words<'_>, modal: &Modal, span: Span) -> Outcome<()> {
+        let what = if modal.compensation != Compensation::Off {
+            "edge banding with tool radius compensation"
+        } else if self.akima.selected || self.hsc.spline().is_some() {
+            "edge banding in a spline"
+        } else if modal.contouring || words.has(Act::ContourOnce) {
+            "edge banding with contouring"
+        } else if self.inserts() || words.group(Group::Insertion).is_some() {
+            "edge banding with chamfers and roundings"
+        } else if modal.path_mode(words).is_thread() {
+            "edge banding in a thread"
+        } else if modal.corner_deceleration
+            || words.g.iter().any(|g| matches!(g.row.act, Act::FeedOverPath | Act::FeedOverTime))
+        {
+            "edge banding with a feed that changes along the block (G13, G193, G293)"
+        } else {
+            return Ok(());
+        };
+        Err(Fault::unsupported(what, span))
+    }
+}
+
+impl MotionState {
+    /// If edge banding is on and the block of the motion has an M function for it, the motion waits for the signal. Returns the
+    /// position of that function in the program text.
+    pub(in crate::exec) fn banding_run(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        modal: &Modal,
+        names: &AxisNames,
+        output: &mut Output<'_>,
+    ) -> Outcome<Option<Span>> {
+        let at_signal = &output.machine.channel.functions.m_at_signal;
+        let mut functions = words.m.iter().filter(|m| at_signal.contains(&m.number));
+        let Some(m) = functions.next() else { return Ok(None) };
+        if let Some(second) = functions.next() {
+            let text = format!("M{} with M{}: both wait for a signal", second.number, m.number);
+            return Err(Fault::new(Condition::TwoSignalFunctions, text, second.span)
+                .with(|d| d.value(ValueKind::Current, second.number, "-")));
+        }
+        if !std::mem::take(&mut self.measuring.banding) {
+            return Ok(None);
+        }
+        output.contour.banding_fits(words, modal, m.span)?;
+        geometry.banding_axes(words, output.machine, names, m.span)?;
+        let seconds =
+            self.counted_time_s(Function::M(m.number), &output.machine.channel, output.contour);
+        let way_mm = self.measuring.residual_path_mm;
+        let run = BandingRun { way_mm, number: m.number, value: m.value, seconds };
+        output.contour.event(Event::Banding(run));
+        Ok(Some(m.span))
     }
 }
 

@@ -131,6 +131,60 @@ impl MotionState {
         }
         coordinates.set_target(&target);
     }
+
+    /// A pair to be activated.
+    fn pair_fits(
+        &self,
+        group: u32,
+        pair: &Pair,
+        coordinates: &Coordinates,
+        machine: &Machine,
+        span: Span,
+    ) -> Outcome<()> {
+        let axes = &machine.axes;
+        let (slave, master) = (&axes[pair.slave], &axes[pair.master]);
+        let of = |condition, axis: usize, text: String, value: Option<u32>| {
+            let (number, name) = (axes[axis].number(), axes[axis].name().to_owned());
+            Err(Fault::new(condition, text, span).with(|d| {
+                let d = d.axis(number, name);
+                match value {
+                    Some(value) => d.value(ValueKind::Current, value, "-"),
+                    None => d,
+                }
+            }))
+        };
+        if self.manual[pair.slave] {
+            let text =
+                format!("axis {} is in manual mode (G201): it cannot be a slave", slave.name());
+            return of(Condition::SlaveInManualMode, pair.slave, text, None);
+        }
+        if coordinates.main_index(pair.slave).is_some() {
+            let text = format!("axis {} is a main axis and cannot be a slave", slave.name());
+            return of(Condition::SlaveIsMainAxis, pair.slave, text, None);
+        }
+        if slave.kind() != master.kind() {
+            let text = format!("{} and {} are of different types", slave.name(), master.name());
+            return of(Condition::CoupledTypes, pair.slave, text, Some(group));
+        }
+        if slave.is_modulo() != master.is_modulo() {
+            let text = format!("{} and {} have different modes", slave.name(), master.name());
+            return of(Condition::CoupledModes, pair.slave, text, Some(group));
+        }
+        for (active, follower) in self.couplings.followers() {
+            let (condition, axis, what) = if follower.pair.slave == pair.slave {
+                (Condition::SlaveIsActiveSlave, pair.slave, "is a slave")
+            } else if follower.pair.master == pair.slave {
+                (Condition::SlaveIsActiveMaster, pair.slave, "is a master")
+            } else if follower.pair.slave == pair.master {
+                (Condition::MasterIsActiveSlave, pair.master, "is a slave")
+            } else {
+                continue;
+            };
+            let text = format!("axis {} {what} in coupling group {active}", axes[axis].name());
+            return of(condition, axis, text, Some(active));
+        }
+        Ok(())
+    }
 }
 
 impl Decoder {
@@ -145,7 +199,7 @@ impl Decoder {
             return Ok(());
         }
         for pair in &pairs {
-            self.pair_fits(group, pair, span)?;
+            self.motion.pair_fits(group, pair, &self.geometry.coordinates, &self.machine, span)?;
         }
         self.sync(Sync::FlushWait);
         let target = self.geometry.coordinates.target();
@@ -199,53 +253,6 @@ impl Decoder {
         self.modal.couplings_may_change(span)?;
         while !self.motion.couplings.are_off() {
             self.switch_couplings_off(None, span)?;
-        }
-        Ok(())
-    }
-
-    /// A pair to be activated.
-    fn pair_fits(&self, group: u32, pair: &Pair, span: Span) -> Outcome<()> {
-        let axes = &self.machine.axes;
-        let (slave, master) = (&axes[pair.slave], &axes[pair.master]);
-        let of = |condition, axis: usize, text: String, value: Option<u32>| {
-            let (number, name) = (axes[axis].number(), axes[axis].name().to_owned());
-            Err(Fault::new(condition, text, span).with(|d| {
-                let d = d.axis(number, name);
-                match value {
-                    Some(value) => d.value(ValueKind::Current, value, "-"),
-                    None => d,
-                }
-            }))
-        };
-        if self.motion.manual[pair.slave] {
-            let text =
-                format!("axis {} is in manual mode (G201): it cannot be a slave", slave.name());
-            return of(Condition::SlaveInManualMode, pair.slave, text, None);
-        }
-        if self.geometry.coordinates.main_index(pair.slave).is_some() {
-            let text = format!("axis {} is a main axis and cannot be a slave", slave.name());
-            return of(Condition::SlaveIsMainAxis, pair.slave, text, None);
-        }
-        if slave.kind() != master.kind() {
-            let text = format!("{} and {} are of different types", slave.name(), master.name());
-            return of(Condition::CoupledTypes, pair.slave, text, Some(group));
-        }
-        if slave.is_modulo() != master.is_modulo() {
-            let text = format!("{} and {} have different modes", slave.name(), master.name());
-            return of(Condition::CoupledModes, pair.slave, text, Some(group));
-        }
-        for (active, follower) in self.motion.couplings.followers() {
-            let (condition, axis, what) = if follower.pair.slave == pair.slave {
-                (Condition::SlaveIsActiveSlave, pair.slave, "is a slave")
-            } else if follower.pair.master == pair.slave {
-                (Condition::SlaveIsActiveMaster, pair.slave, "is a master")
-            } else if follower.pair.slave == pair.master {
-                (Condition::MasterIsActiveSlave, pair.master, "is a slave")
-            } else {
-                continue;
-            };
-            let text = format!("axis {} {what} in coupling group {active}", axes[axis].name());
-            return of(condition, axis, text, Some(active));
         }
         Ok(())
     }

@@ -10,15 +10,18 @@
 //! P-AXIS-00015; 20633, 20642, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
-use crate::exec::block::choice::PathMode;
+use crate::exec::block::choice::{PathMode, Plane};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::contour::{PIECES_MAX, STEP};
-use crate::exec::decoder::Decoder;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::{Contour, PIECES_MAX, STEP};
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::MotionState;
-use crate::exec::report::Subject;
+use crate::exec::names::AxisNames;
+use crate::exec::output::Output;
+use crate::exec::report::{Report, Subject};
 use crate::exec::step::{CuttingSpeed, Event};
 use crate::machine::Machine;
 use crate::machine::table::axis_general;
@@ -51,11 +54,46 @@ impl MotionState {
             None => self.spindles[0].rpm.abs().min(self.spindles[0].most_rpm(machine)),
         }
     }
-}
 
-impl Decoder {
+    /// Passes the state to the simulation.
+    fn report_cutting_speed(&mut self, coordinates: &Coordinates, contour: &mut Contour) {
+        let Some(mut cutting) = self.cutting.speed else { return };
+        cutting.centre_mm = coordinates.turning_centre(cutting.axis);
+        self.cutting.speed = Some(cutting);
+        if let Some(spindle) = self.spindles[0].index {
+            contour.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
+        }
+    }
+
+    /// Called before a motion with a known target. Offsets may have moved the turning centre, and rapid blocks keep the speed
+    /// of their start position.
+    pub(in crate::exec) fn follow_turning_centre(
+        &mut self,
+        start: &AxisVec,
+        coordinates: &Coordinates,
+        modal: &Modal,
+        contour: &mut Contour,
+    ) {
+        let rapid = modal.path == PathMode::Rapid;
+        let Some(cutting) = &mut self.cutting.speed else { return };
+        let (axis, known) = (cutting.axis, cutting.centre_mm);
+        let changes = rapid != cutting.held_mm.is_some();
+        if changes {
+            cutting.held_mm = rapid.then(|| start[axis]);
+        }
+        if changes || (coordinates.turning_centre(axis) - known).abs() > 1e-9 {
+            self.report_cutting_speed(coordinates, contour);
+        }
+    }
+
     /// G96, G97 and G196 with the S word of their block.
-    pub(in crate::exec) fn cutting_words(&mut self, words: &Words<'_>) -> Outcome<()> {
+    pub(in crate::exec) fn cutting_words(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        modal: &Modal,
+        output: &mut Output<'_>,
+    ) -> Outcome<()> {
         let g = words.group(Group::SpindleMode);
         let speed = words.speeds.iter().find(|(spindle, _, _)| *spindle == 0).copied();
         if let (Some(Act::CuttingSpeedMax), Some(m)) =
@@ -67,12 +105,12 @@ impl Decoder {
         if let Some(m) = words.m.iter().find(|m| m.number == 19)
             && !matches!(g.map(|g| g.row.act), Some(Act::CuttingSpeed(false)))
         {
-            self.motion.cutting.positions_main_spindle(m.span)?;
+            self.cutting.positions_main_spindle(m.span)?;
         }
         match g.map(|g| (g.row.act, g.span)) {
             Some((Act::CuttingSpeedMax, span)) => match speed {
                 Some((_, rpm, _)) if rpm > 0.0 && rpm <= 1e6 => {
-                    self.motion.cutting.rpm_max = Some(rpm);
+                    self.cutting.rpm_max = Some(rpm);
                     Ok(())
                 }
                 _ => {
@@ -81,33 +119,35 @@ impl Decoder {
                 }
             },
             Some((Act::CuttingSpeed(false), _)) => {
-                if self.motion.cutting.speed.is_some() {
+                if self.cutting.speed.is_some() {
                     // keeps the present speed
-                    self.motion.spindles[0].rpm =
-                        self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine);
-                    self.motion.cutting.speed = None;
-                    if let Some(spindle) = self.motion.spindles[0].index {
-                        self.contour.event(Event::CuttingSpeed { spindle, cutting: None });
+                    self.spindles[0].rpm = self.spindle_rpm(&geometry.coordinates, output.machine);
+                    self.cutting.speed = None;
+                    if let Some(spindle) = self.spindles[0].index {
+                        output.contour.event(Event::CuttingSpeed { spindle, cutting: None });
                     }
                 }
-                self.motion.cutting.waits = false;
+                self.cutting.waits = false;
                 Ok(())
             }
             Some((Act::CuttingSpeed(true), _)) => {
-                self.motion.cutting.waits = true;
-                self.cut_with(speed.map(|(_, v, at)| (v, at)))
+                self.cutting.waits = true;
+                self.cut_with(speed.map(|(_, v, at)| (v, at)), geometry, modal, output)
             }
-            _ => self.cut_with(speed.map(|(_, v, at)| (v, at))),
+            _ => self.cut_with(speed.map(|(_, v, at)| (v, at)), geometry, modal, output),
         }
     }
 
-    fn cut_with(&mut self, speed: Option<(f64, Span)>) -> Outcome<()> {
-        let (true, Some((written, at))) = (self.motion.cutting.waits, speed) else { return Ok(()) };
-        let unit_mm = if self.machine.channel.feed.cuts_in_feet && self.modal.inch {
-            FOOT_MM
-        } else {
-            1000.0
-        };
+    fn cut_with(
+        &mut self,
+        speed: Option<(f64, Span)>,
+        geometry: &Geometry,
+        modal: &Modal,
+        output: &mut Output<'_>,
+    ) -> Outcome<()> {
+        let (true, Some((written, at))) = (self.cutting.waits, speed) else { return Ok(()) };
+        let unit_mm =
+            if output.machine.channel.feed.cuts_in_feet && modal.inch { FOOT_MM } else { 1000.0 };
         if written <= 0.0 || written > 1e6 {
             let text = format!("cutting speed S{written}");
             let condition = if written < 0.0 {
@@ -117,14 +157,14 @@ impl Decoder {
             };
             return Err(Fault::new(condition, text, at));
         }
-        let axis = self.geometry.face_turning_axis(
-            self.modal.plane.main_axes(),
-            &self.machine,
+        let axis = geometry.face_turning_axis(
+            modal.plane.main_axes(),
+            output.machine,
             ("G96", Condition::CuttingWithoutFaceAxis),
             at,
         )?;
-        self.motion.no_spindle_override("G96", at)?;
-        let listed = self.motion.spindles[0].index.and_then(|i| self.machine.spindles.get(i));
+        self.no_spindle_override("G96", at)?;
+        let listed = self.spindles[0].index.and_then(|i| output.machine.spindles.get(i));
         let Some(most) = listed.map(|s| s.dynamics().v_max_mm_s / 6.0) else {
             return Err(Fault::unsupported("G96 without a spindle in the machine", at));
         };
@@ -132,10 +172,10 @@ impl Decoder {
             axis,
             centre_mm: 0.0,
             speed_mm_min: written * unit_mm,
-            max_rpm: self.motion.cutting.rpm_max.map_or(most, |rpm| rpm.min(most)),
+            max_rpm: self.cutting.rpm_max.map_or(most, |rpm| rpm.min(most)),
             held_mm: None,
         };
-        let radius = self.geometry.coordinates.turning_distance(axis);
+        let radius = geometry.coordinates.turning_distance(axis);
         if cutting.speed_mm_min / (std::f64::consts::TAU * radius.abs())
             > cutting.max_rpm * (1.0 + 1e-9)
         {
@@ -144,83 +184,63 @@ impl Decoder {
                 rounded(radius.abs()),
                 rounded(cutting.max_rpm)
             );
-            self.report.note(
+            output.report.note(
                 Fault::new(Condition::CuttingSpeedLimited, text, at)
                     .with(|d| d.value(ValueKind::Wrong, radius.abs() * 1e4, "0.1um")),
             );
         }
-        self.motion.spindles[0].rpm = cutting.rpm(radius);
-        self.motion.cutting.speed = Some(cutting);
-        self.report_cutting_speed();
+        self.spindles[0].rpm = cutting.rpm(radius);
+        self.cutting.speed = Some(cutting);
+        self.report_cutting_speed(&geometry.coordinates, output.contour);
         Ok(())
     }
+}
 
-    /// G51, G52: words of the face turning axis are diameters; centres and radii of arcs are not affected.
+impl Geometry {
+    /// G51: the axis whose words are diameters, the face turning axis of the plane; centres and radii of arcs are not affected.
     ///
     /// Assumptions: G92, the words of independent axes and `V.A.ABS` are not affected either.
     ///
     /// Source: TF5200 turning functions, diameter programming; P-AXIS-00058, P-AXIS-00059, P-CHAN-00091; 20042.
-    pub(in crate::exec) fn diameter_programming(&mut self, on: bool, span: Span) -> Outcome<()> {
-        if !on {
-            self.modal.diameter = None;
-            return Ok(());
-        }
-        let axis = self.geometry.face_turning_axis(
-            self.modal.plane.main_axes(),
-            &self.machine,
-            ("G51", Condition::NoFaceTurningAxis),
-            span,
-        )?;
-        if self.machine.channel.offsets.in_diameters {
+    pub(in crate::exec) fn diameter_axis(
+        &self,
+        plane: Plane,
+        machine: &Machine,
+        names: &AxisNames,
+        report: &mut Report,
+        span: Span,
+    ) -> Outcome<usize> {
+        let none = ("G51", Condition::NoFaceTurningAxis);
+        let axis = self.face_turning_axis(plane.main_axes(), machine, none, span)?;
+        if machine.channel.offsets.in_diameters {
             let what = "diameter programming with offsets in diameters (P-CHAN-00091)";
             return Err(Fault::unsupported(what, span));
         }
-        let listed = &self.machine.axes[axis];
+        let listed = &machine.axes[axis];
         if !listed.takes_diameters(true) && !listed.takes_diameters(false) {
-            let name = self.names.name(axis).to_owned();
+            let name = names.name(axis);
             let text = format!("G51 has no effect: axis {name} does not accept diameters");
             let hint = "enable diameters with kenngr.durchm_prog_abs (P-AXIS-00058) and durchm_prog_rel (P-AXIS-00059)";
             let fault = Fault::new(Condition::ListNoEffect, text, span).hint(hint);
-            self.report.note_once(
+            report.note_once(
                 Subject::G(51),
                 fault.with(|d| d.parameter(axis_general::DIAMETER_ABSOLUTE)),
             );
         }
-        self.modal.diameter = Some(axis);
-        Ok(())
+        Ok(axis)
     }
 
     /// Factor from a coordinate word of an axis to mm: its unit, halved for diameters, times its scale factor (`#SCALE`).
-    pub(in crate::exec) fn coordinate_unit(&self, axis: usize, absolute: bool) -> f64 {
-        let halves =
-            self.modal.diameter == Some(axis) && self.machine.axes[axis].takes_diameters(absolute);
-        let unit = self.modal.axis_unit(&self.machine.axes[axis]) * if halves { 0.5 } else { 1.0 };
-        unit * self.geometry.scale.factor(axis)
-    }
-
-    /// Passes the state to the simulation.
-    fn report_cutting_speed(&mut self) {
-        let Some(mut cutting) = self.motion.cutting.speed else { return };
-        cutting.centre_mm = self.geometry.coordinates.turning_centre(cutting.axis);
-        self.motion.cutting.speed = Some(cutting);
-        if let Some(spindle) = self.motion.spindles[0].index {
-            self.contour.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
-        }
-    }
-
-    /// Called before a motion with a known target. Offsets may have moved the turning centre, and rapid blocks keep the speed
-    /// of their start position.
-    pub(in crate::exec) fn follow_turning_centre(&mut self, start: &AxisVec) {
-        let rapid = self.modal.path == PathMode::Rapid;
-        let Some(cutting) = &mut self.motion.cutting.speed else { return };
-        let (axis, known) = (cutting.axis, cutting.centre_mm);
-        let changes = rapid != cutting.held_mm.is_some();
-        if changes {
-            cutting.held_mm = rapid.then(|| start[axis]);
-        }
-        if changes || (self.geometry.coordinates.turning_centre(axis) - known).abs() > 1e-9 {
-            self.report_cutting_speed();
-        }
+    pub(in crate::exec) fn coordinate_unit(
+        &self,
+        axis: usize,
+        absolute: bool,
+        machine: &Machine,
+        modal: &Modal,
+    ) -> f64 {
+        let halves = modal.diameter == Some(axis) && machine.axes[axis].takes_diameters(absolute);
+        let unit = modal.axis_unit(&machine.axes[axis]) * if halves { 0.5 } else { 1.0 };
+        unit * self.scale.factor(axis)
     }
 }
 

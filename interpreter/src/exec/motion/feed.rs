@@ -4,9 +4,11 @@ use crate::diag::Condition;
 use crate::exec::block::choice::{FeedType, PathMode};
 use crate::exec::block::collected::Placed;
 use crate::exec::block::modal::{FeedWord, Modal};
-use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::spindles::Turning;
+use crate::exec::motion::state::MotionState;
+use crate::exec::output::Output;
 use crate::exec::report::{Report, Subject};
 use crate::machine::{INCH_MM, Machine};
 use crate::syntax::ast::Span;
@@ -52,58 +54,78 @@ impl Modal {
     }
 }
 
-impl Decoder {
+impl MotionState {
     /// Feed rate of a block with this path.
-    pub(super) fn feed_of(&mut self, path: &Path, span: Span) -> Outcome<Feed> {
-        if self.modal.path == PathMode::Rapid {
+    pub(super) fn feed_of(
+        &self,
+        path: &Path,
+        coordinates: &Coordinates,
+        modal: &Modal,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<Feed> {
+        if modal.path == PathMode::Rapid {
             return Ok(Feed::Rapid);
         }
-        if let Some(feed) = self.motion.measuring.feed {
+        if let Some(feed) = self.measuring.feed {
             return Ok(feed);
         }
-        let Some(word) = self.modal.feed().filter(|f| f.value > 0.0) else {
-            let text = match self.modal.feed() {
+        let Some(word) = modal.feed().filter(|f| f.value > 0.0) else {
+            let text = match modal.feed() {
                 Some(_) => "the feed is 0: value of the last F word",
-                None if self.modal.feed_type == FeedType::Time => {
+                None if modal.feed_type == FeedType::Time => {
                     "the time is 0: G93 needs an F word each time it is programmed"
                 }
                 None => "the feed is 0: no F word has been programmed",
             };
-            self.report.note_once(Subject::Only, Fault::new(Condition::FeedZero, text, span));
+            output.report.note_once(Subject::Only, Fault::new(Condition::FeedZero, text, span));
             // the block is skipped, the positions continue
             return Ok(Feed::PathVelocity(1.0));
         };
-        if self.contour.hsc.feed_type(self.modal.feed_type) != self.modal.feed_type {
+        if output.contour.hsc.feed_type(modal.feed_type) != modal.feed_type {
             let text = "G93 in a B-spline: F is taken in mm/min";
-            self.report.note_once(Subject::Only, Fault::new(Condition::TimeInSpline, text, span));
+            output.report.note_once(Subject::Only, Fault::new(Condition::TimeInSpline, text, span));
         }
-        let main = &self.motion.spindles[0];
-        if self.modal.feed_type == FeedType::PerRevolution
+        let main = &self.spindles[0];
+        if modal.feed_type == FeedType::PerRevolution
             && main.index.is_some()
             && main.turning == Turning::Stopped
-            && self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine) != 0.0
+            && self.spindle_rpm(coordinates, output.machine) != 0.0
         {
             let text = "feed per revolution while the main spindle is stopped: its S word is used";
             let fault = Fault::new(Condition::Odd, text, span).hint("write M03 or M04 before it");
-            self.report.note_once(Subject::G(95), fault);
+            output.report.note_once(Subject::G(95), fault);
         }
-        self.feed_from(word.value, word.unit_mm(&self.machine, path), span)
+        self.feed_from(
+            (word.value, word.unit_mm(output.machine, path)),
+            coordinates,
+            modal,
+            output,
+            span,
+        )
     }
 
     /// Feed rate for a value above 0 with the active feed type; the unit of a distance in mm is given.
-    pub(in crate::exec) fn feed_from(&self, value: f64, unit_mm: f64, span: Span) -> Outcome<Feed> {
-        Ok(match self.contour.hsc.feed_type(self.modal.feed_type) {
+    pub(in crate::exec) fn feed_from(
+        &self,
+        (value, unit_mm): (f64, f64),
+        coordinates: &Coordinates,
+        modal: &Modal,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<Feed> {
+        Ok(match output.contour.hsc.feed_type(modal.feed_type) {
             FeedType::PerMinute => {
-                Feed::PathVelocity(value * unit_mm * self.machine.channel.feed.unit_mm_min / 60.0)
+                Feed::PathVelocity(value * unit_mm * output.machine.channel.feed.unit_mm_min / 60.0)
             }
             FeedType::Time => Feed::Duration(value),
             FeedType::ShareOfMaximum => Feed::ShareOfMaximum(value / 100.0),
             FeedType::PerRevolution => {
-                self.motion.no_spindle_override("G95", span)?;
-                self.motion.no_tool_limit("G95", 0, span)?;
-                let rpm = self.motion.spindle_rpm(&self.geometry.coordinates, &self.machine);
+                self.no_spindle_override("G95", span)?;
+                self.no_tool_limit("G95", 0, span)?;
+                let rpm = self.spindle_rpm(coordinates, output.machine);
                 if rpm == 0.0 {
-                    let (condition, what) = match self.motion.spindles[0].turning {
+                    let (condition, what) = match self.spindles[0].turning {
                         Turning::Stopped => (Condition::SpindleAtRestAtFeed, "is at rest"),
                         _ => (Condition::SpindleSpeedZeroAtFeed, "has no speed"),
                     };

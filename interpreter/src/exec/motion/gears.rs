@@ -9,7 +9,7 @@
 
 use crate::diag::{Condition, ValueKind};
 use crate::exec::block::collected::{GWord, Words};
-use crate::exec::decoder::Decoder;
+use crate::exec::decoder::{Decoder, report_consequences};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::step::{Event, SpindleState, Sync};
 use crate::exec::values::number::whole;
@@ -34,7 +34,7 @@ impl Decoder {
                 // a following error would become another speed command with the other gain
                 self.sync(Sync::FlushWait);
                 self.sync(Sync::ExactStop { alone: true });
-                self.report_consequences(*axis, &known, *span);
+                report_consequences(&self.machine, *axis, &known, &mut self.report, *span);
                 self.axis_changes(axis_number, *span);
             }
         }

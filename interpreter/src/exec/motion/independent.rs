@@ -11,11 +11,17 @@ use super::slope::{slope_of_number, slope_type};
 use super::state::Function;
 use crate::diag::Condition;
 use crate::exec::block::collected::Words as BlockWords;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::geometry::{Geometry, modulo};
+use crate::exec::motion::state::{Independent, MotionState};
 use crate::exec::names::AxisNames;
+use crate::exec::output::{Output, output};
 use crate::exec::step::{Event, IndependentMotion, Sync};
+use crate::machine::{Axis, Channel};
 use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, Span};
 use kontur_filters::time::CycleTime;
 use kontur_motion::axis::AxisDynamics;
@@ -191,6 +197,114 @@ impl Geometry {
             None => Ok(0.0),
         }
     }
+
+    /// 21071 for a main axis that the active coordinate systems turn, or that a transformation moves.
+    ///
+    /// An axis that keeps its direction may move independently, under a transformation the third main axis alone
+    /// (253361291, 208635787, oscillation 15314437259).
+    pub(super) fn moves_untransformed(
+        &self,
+        axis: usize,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<()> {
+        let Some(main) = self.coordinates.main_index(axis) else { return Ok(()) };
+        let is_free = !self.transformation_on || main == 2;
+        if is_free && self.coordinates.keeps_direction(main) {
+            return Ok(());
+        }
+        let (number, name) = (names.number(axis), names.name(axis).to_owned());
+        let text = format!("{name} takes part in a transformation: it cannot move independently");
+        Err(Fault::new(Condition::IndependentInTransformation, text, span)
+            .with(|d| d.axis(number, name)))
+    }
+}
+
+impl Independent {
+    /// Axes of a block with INDP_SYN: the next block begins when all of them have arrived.
+    pub(in crate::exec) fn take_synchronous(&mut self) -> Vec<usize> {
+        std::mem::take(&mut self.synchronous)
+    }
+
+    /// Axes that may still be moving independently and that a path moves, too: it waits for them.
+    pub(in crate::exec) fn moved_by(&self, path: &Path) -> Vec<usize> {
+        if self.open.is_empty() {
+            return Vec::new();
+        }
+        let plane = match path {
+            Path::Arc(arc) => arc.shape().plane.to_vec(),
+            Path::Tilted(tilted) => tilted.tilt().axes.to_vec(),
+            Path::Line(_) | Path::Curve(_) => Vec::new(),
+        };
+        let moves = |axis: &usize| {
+            path.start()[*axis].to_bits() != path.end()[*axis].to_bits() || plane.contains(axis)
+        };
+        self.open.iter().copied().filter(moves).collect()
+    }
+
+    /// P-CHAN-00451 = 1: a block that names an axis in independent motion waits for it, even if the block does not move it.
+    pub(super) fn named_in(&self, words: &BlockWords<'_>, channel: &Channel) -> Vec<usize> {
+        let named = |axis: &usize| words.axes.iter().any(|(word, _, _)| word == axis);
+        let joins = channel.independent.joins_named;
+        self.open.iter().copied().filter(|axis| joins && named(axis)).collect()
+    }
+
+    /// K-0150 for a main axis in independent motion when a coordinate system or a transformation is selected: it has to
+    /// end before (208635787).
+    pub(in crate::exec) fn none_independent(
+        &self,
+        title: &str,
+        coordinates: &Coordinates,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<()> {
+        let is_main = |axis: &&usize| coordinates.main_index(**axis).is_some();
+        let Some(&axis) = self.open.iter().find(is_main) else { return Ok(()) };
+        let (number, name) = (names.number(axis), names.name(axis).to_owned());
+        let text = format!("{title} while {name} moves independently or oscillates");
+        Err(Fault::new(Condition::IndependentBeforeSystem, text, span)
+            .with(|d| d.axis(number, name)))
+    }
+}
+
+impl MotionState {
+    /// A function of the bracket of an independent axis.
+    fn independent_function(&mut self, function: Event, output: &mut Output<'_>) {
+        let timed = match function {
+            Event::MFunction { number, .. } => Some(Function::M(number)),
+            Event::HFunction { number, .. } => Some(Function::H(number)),
+            _ => None,
+        };
+        if let Some(timed) = timed {
+            self.takes_time(timed, &output.machine.channel, output.contour);
+        }
+        output.contour.event(function);
+    }
+
+    /// 120697 for a positioning axis within a spline, K-0154 for one while polynomial contouring is active (208606347).
+    pub(super) fn moves_outside_curves(
+        &self,
+        axis: usize,
+        modal: &Modal,
+        contour: &Contour,
+        names: &AxisNames,
+        span: Span,
+    ) -> Outcome<()> {
+        let condition = if contour.akima.selected || contour.hsc.spline().is_some() {
+            Condition::IndependentInSpline
+        } else if self.is_contouring(modal, contour) {
+            Condition::IndependentInContouring
+        } else {
+            return Ok(());
+        };
+        let (number, name) = (names.number(axis), names.name(axis).to_owned());
+        let place = match condition {
+            Condition::IndependentInSpline => "within a spline",
+            _ => "while contouring is active",
+        };
+        let text = format!("{name} cannot move independently {place}");
+        Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
+    }
 }
 
 impl Decoder {
@@ -204,10 +318,10 @@ impl Decoder {
     ) -> Outcome<()> {
         self.motion.couplings.moves_not_coupled(axis, &self.machine, span)?;
         self.motion.areas.moves_unwatched(axis, &self.names, span)?;
-        self.moves_outside_curves(axis, span)?;
+        self.motion.moves_outside_curves(axis, &self.modal, &self.contour, &self.names, span)?;
         let mut words = Words::read(self, axis, rest)?;
         for function in std::mem::take(&mut words.functions) {
-            self.independent_function(function);
+            self.motion.independent_function(function, output!(self));
         }
         let Some((position, at)) = words.position else {
             if rest.is_empty() || words.speed.is_some() || words.rapid.is_some() {
@@ -215,15 +329,20 @@ impl Decoder {
             }
             return Ok(());
         };
-        self.moves_untransformed(axis, span)?;
+        self.geometry.moves_untransformed(axis, &self.names, span)?;
         let speed = words.speed_of_motion(span)?;
         if self.motion.independent.open.contains(&axis) {
             self.join(vec![axis]);
         }
         let start = self.geometry.coordinates.target().clone();
-        let target = self.independent_target(axis, &words, position, start[axis])?;
+        let way = self.geometry.scaled_mm(axis, position, &self.machine, &self.modal);
+        let offset_mm = self.geometry.included_offset(axis, "INDP", words.offsets, &self.names)?;
+        let relative = words.relative.unwrap_or(!self.modal.absolute);
+        let listed = &self.machine.axes[axis];
+        let target = target_of(listed, start[axis], way, (!relative).then_some(offset_mm));
         self.geometry.coordinates.place(axis, target);
-        self.check_limit(axis, target, at);
+        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+        limits.check_target(axis, target, &mut self.report, at);
         let slope = words.slope.unwrap_or(self.machine.channel.dynamics.slope);
         if let IndependentSpeed::Time(time_s) = speed {
             let dynamics = &self.motion.dynamics(&self.machine, &self.modal, false).axes[axis];
@@ -249,133 +368,13 @@ impl Decoder {
         Ok(())
     }
 
-    /// A function of the bracket of an independent axis.
-    fn independent_function(&mut self, function: Event) {
-        let timed = match function {
-            Event::MFunction { number, .. } => Some(Function::M(number)),
-            Event::HFunction { number, .. } => Some(Function::H(number)),
-            _ => None,
-        };
-        if let Some(timed) = timed {
-            self.motion.takes_time(timed, &self.machine.channel, &mut self.contour);
+    /// Stops the path until these axes have arrived, if there are any.
+    pub(in crate::exec) fn join(&mut self, axes: Vec<usize>) {
+        if axes.is_empty() {
+            return;
         }
-        self.contour.event(function);
-    }
-
-    /// Target of an independent axis in mm (deg) for its programmed position.
-    fn independent_target(
-        &self,
-        axis: usize,
-        words: &Words,
-        position: f64,
-        start: f64,
-    ) -> Outcome<f64> {
-        let relative = words.relative.unwrap_or(!self.modal.absolute);
-        let way = position
-            * self.modal.axis_unit(&self.machine.axes[axis])
-            * self.geometry.scale.factor(axis);
-        let offset_mm = self.geometry.included_offset(axis, "INDP", words.offsets, &self.names)?;
-        Ok(if relative {
-            start + way
-        } else if self.machine.axes[axis].is_modulo() {
-            // always the shortest way (208606347)
-            let range_deg = self.machine.axes[axis].modulo_deg();
-            modulo::unwrapped(way + offset_mm, None, start, range_deg)
-        } else {
-            way + offset_mm
-        })
-    }
-
-    /// 120697 for a positioning axis within a spline, K-0154 for one while polynomial contouring is active (208606347).
-    pub(super) fn moves_outside_curves(&self, axis: usize, span: Span) -> Outcome<()> {
-        let condition = if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
-            Condition::IndependentInSpline
-        } else if self.is_contouring() {
-            Condition::IndependentInContouring
-        } else {
-            return Ok(());
-        };
-        let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
-        let place = match condition {
-            Condition::IndependentInSpline => "within a spline",
-            _ => "while contouring is active",
-        };
-        let text = format!("{name} cannot move independently {place}");
-        Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)))
-    }
-
-    /// 21071 for a main axis that the active coordinate systems turn, or that a transformation moves.
-    ///
-    /// An axis that keeps its direction may move independently, under a transformation the third main axis alone
-    /// (253361291, 208635787, oscillation 15314437259).
-    pub(super) fn moves_untransformed(&self, axis: usize, span: Span) -> Outcome<()> {
-        let geometry = &self.geometry;
-        let Some(main) = geometry.coordinates.main_index(axis) else { return Ok(()) };
-        let is_free = !geometry.transformation_on || main == 2;
-        if is_free && geometry.coordinates.keeps_direction(main) {
-            return Ok(());
-        }
-        let (number, name) = (self.machine.axes[axis].number(), self.names.name(axis).to_owned());
-        let text = format!("{name} takes part in a transformation: it cannot move independently");
-        Err(Fault::new(Condition::IndependentInTransformation, text, span)
-            .with(|d| d.axis(number, name)))
-    }
-
-    /// K-0150 for a main axis in independent motion when a coordinate system or a transformation is selected: it has to
-    /// end before (208635787).
-    pub(in crate::exec) fn none_independent(&self, title: &str, span: Span) -> Outcome<()> {
-        let is_main = |axis: &&usize| self.geometry.coordinates.main_index(**axis).is_some();
-        let Some(&axis) = self.motion.independent.open.iter().find(is_main) else { return Ok(()) };
-        let (number, name) = (self.names.number(axis), self.names.name(axis).to_owned());
-        let text = format!("{title} while {name} moves independently or oscillates");
-        Err(Fault::new(Condition::IndependentBeforeSystem, text, span)
-            .with(|d| d.axis(number, name)))
-    }
-
-    /// Stops the path until these axes have arrived.
-    pub(super) fn join(&mut self, axes: Vec<usize>) {
         self.motion.independent.open.retain(|axis| !axes.contains(axis));
         self.sync(Sync::Independent { axes });
-    }
-
-    /// After a block with INDP_SYN: the next block begins when all its axes have arrived.
-    pub(in crate::exec) fn join_synchronous(&mut self) {
-        if !self.motion.independent.synchronous.is_empty() {
-            let axes = std::mem::take(&mut self.motion.independent.synchronous);
-            self.join(axes);
-        }
-    }
-
-    /// A path that moves an axis waits until an independent motion of this axis has ended.
-    pub(in crate::exec) fn join_for(&mut self, path: &Path) {
-        if self.motion.independent.open.is_empty() {
-            return;
-        }
-        let plane = match path {
-            Path::Arc(arc) => arc.shape().plane.to_vec(),
-            Path::Tilted(tilted) => tilted.tilt().axes.to_vec(),
-            Path::Line(_) | Path::Curve(_) => Vec::new(),
-        };
-        let moves = |axis: &usize| {
-            path.start()[*axis].to_bits() != path.end()[*axis].to_bits() || plane.contains(axis)
-        };
-        let axes: Vec<usize> = self.motion.independent.open.iter().copied().filter(moves).collect();
-        if !axes.is_empty() {
-            self.join(axes);
-        }
-    }
-
-    /// P-CHAN-00451 = 1: a block that names an axis in independent motion waits for it, even if the block does not move it.
-    pub(super) fn join_named(&mut self, words: &BlockWords<'_>) {
-        if !self.machine.channel.independent.joins_named || self.motion.independent.open.is_empty()
-        {
-            return;
-        }
-        let named = |axis: &usize| words.axes.iter().any(|(word, _, _)| word == axis);
-        let axes: Vec<usize> = self.motion.independent.open.iter().copied().filter(named).collect();
-        if !axes.is_empty() {
-            self.join(axes);
-        }
     }
 
     /// `#WAIT INDP [X, Y]`, `#WAIT INDP ALL`.
@@ -403,6 +402,18 @@ impl Decoder {
             self.sync(Sync::ExactStop { alone: false });
         }
         Ok(())
+    }
+}
+
+/// Where an axis at `start` moves independently: by `way`, or to the coordinate `way` with its offset.
+fn target_of(axis: &Axis, start: f64, way: f64, offset: Option<f64>) -> f64 {
+    match offset {
+        None => start + way,
+        // always the shortest way (208606347)
+        Some(offset) if axis.is_modulo() => {
+            modulo::unwrapped(way + offset, None, start, axis.modulo_deg())
+        }
+        Some(offset) => way + offset,
     }
 }
 

@@ -1,11 +1,12 @@
 //! Software limits along a path.
 
 use crate::diag::{Condition, ValueKind};
-use crate::exec::contour::Driven;
-use crate::exec::decoder::Decoder;
+use crate::exec::contour::{Contour, Driven};
 use crate::exec::fault::Fault;
+use crate::exec::geometry::Geometry;
 use crate::exec::motion::state::MotionState;
 use crate::exec::names::AxisNames;
+use crate::exec::report::Report;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::table::axis_general;
 use crate::machine::{Machine, is_outside};
@@ -13,7 +14,7 @@ use crate::syntax::ast::Span;
 use kontur_motion::path::Path;
 
 /// What a check against the software limits reads.
-pub(super) struct Limits<'a> {
+pub(in crate::exec) struct Limits<'a> {
     ranges_mm: &'a [Option<(f64, f64)>],
     motion: &'a MotionState,
     names: &'a AxisNames,
@@ -104,24 +105,17 @@ impl Limits<'_> {
         });
         if self.machine.limits_only_warn(axis) { fault.warning() } else { fault }
     }
-}
-
-impl Decoder {
-    /// The software limits as the program has set them.
-    pub(super) fn limits(&self) -> Limits<'_> {
-        let (ranges_mm, motion) = (&self.geometry.limits_mm[..], &self.motion);
-        Limits { ranges_mm, motion, names: &self.names, machine: &self.machine }
-    }
 
     /// Checks a path against the software limits (P-AXIS-00177, P-AXIS-00178), including the reversal points of arcs; `place`
     /// is the position of the word of an axis.
-    pub(super) fn check_limits(
-        &mut self,
+    pub(super) fn check(
+        &self,
         path: &Path,
         place: impl Fn(usize) -> Option<Span>,
+        report: &mut Report,
         span: Span,
     ) {
-        for axis in 0..self.geometry.limits_mm.len() {
+        for axis in 0..self.ranges_mm.len() {
             let at_rest = path.start()[axis].to_bits() == path.end()[axis].to_bits();
             if path.is_straight() && at_rest {
                 continue;
@@ -129,21 +123,40 @@ impl Decoder {
             let Some((low, high)) = path.extent(axis) else { return };
             let end = path.end()[axis];
             let at = || place(axis).unwrap_or(span);
-            if let Some(fault) = self.limits().outside(axis, low, high, Some(end), at) {
-                self.report.note(fault);
+            if let Some(fault) = self.outside(axis, low, high, Some(end), at) {
+                report.note(fault);
             }
-            for fault in self.limits().slaves_outside(axis, low, high, at()) {
-                self.report.note(Box::new(fault));
-            }
+            report.extend(self.slaves_outside(axis, low, high, at()));
         }
     }
 
+    /// 21897 for a target outside the software limits of its axis.
+    pub(super) fn check_target(&self, axis: usize, target: f64, report: &mut Report, at: Span) {
+        let Some(limits) = self.ranges_mm[axis] else { return };
+        if is_outside(target, limits) {
+            report.note(self.fault(axis, "target", target, limits, at));
+        }
+    }
+}
+
+impl Geometry {
+    /// The software limits as the program has set them.
+    pub(in crate::exec) fn limits<'a>(
+        &'a self,
+        motion: &'a MotionState,
+        names: &'a AxisNames,
+        machine: &'a Machine,
+    ) -> Limits<'a> {
+        Limits { ranges_mm: &self.limits_mm, motion, names, machine }
+    }
+}
+
+impl Contour {
     /// Checks compensated motions against the software limits, and all motions against the control areas.
-    pub(in crate::exec) fn limits_of_compensated(&mut self) -> Vec<Fault> {
+    pub(in crate::exec) fn take_outside(&mut self, limits: &Limits<'_>) -> Vec<Fault> {
         let mut faults = Vec::new();
-        for Driven { extents_mm, source, span } in self.contour.take_driven() {
+        for Driven { extents_mm, source, span } in self.take_driven() {
             for (axis, (low, high)) in extents_mm.into_iter().enumerate() {
-                let limits = self.limits();
                 if let Some(fault) = limits.outside_format(axis, low, high, span) {
                     faults.push(*fault.in_block(source));
                     continue;
@@ -154,16 +167,7 @@ impl Decoder {
                 faults.extend(all.map(|fault| *Box::new(fault).in_block(source)));
             }
         }
-        faults.extend(self.contour.take_violations());
+        faults.extend(self.take_violations());
         faults
-    }
-
-    /// 21897 for a target outside the software limits of its axis.
-    pub(in crate::exec) fn check_limit(&mut self, axis: usize, target: f64, at: Span) {
-        let Some(limits) = self.geometry.limits_mm[axis] else { return };
-        if is_outside(target, limits) {
-            let fault = self.limits().fault(axis, "target", target, limits, at);
-            self.report.note(fault);
-        }
     }
 }

@@ -16,7 +16,14 @@ use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
+use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::live::Live;
+use crate::exec::motion::state::MotionState;
+use crate::exec::names::AxisNames;
+use crate::exec::report::Report;
 use crate::exec::step::Sync;
+use crate::machine::Machine;
 use crate::syntax::ast::{Jump, Span};
 use kontur_motion::block::Feed;
 
@@ -56,6 +63,150 @@ impl Measuring {
             return Err(of_kind(Condition::MeasuringFunction, text));
         }
         Ok(())
+    }
+
+    /// The axes of a run: their number, and whether the lists let them measure.
+    fn axes_measure(
+        &self,
+        g: &GWord,
+        words: &Words<'_>,
+        coordinates: &Coordinates,
+        machine: &Machine,
+        names: &AxisNames,
+    ) -> Outcome<()> {
+        let kind = self.kind;
+        let most = match kind {
+            2 => 1,
+            4 => 3,
+            _ => usize::MAX,
+        };
+        let is_main = |axis: usize| coordinates.main_index(axis).is_some();
+        let other = words.axes.iter().find(|(axis, _, _)| kind == 4 && !is_main(*axis));
+        if words.axes.len() > most || other.is_some() {
+            let at = words.axes.get(most).or(other).map_or(g.span, |(_, _, at)| *at);
+            let count = words.axes.len();
+            let text = match other {
+                Some((axis, _, _)) if count <= most => {
+                    format!(
+                        "axis {} with measuring type 4: only main axes are allowed",
+                        names.name(*axis)
+                    )
+                }
+                _ => format!("{count} axes with measuring type {kind}, maximum: {most}"),
+            };
+            return Err(Fault::new(Condition::MeasuringAxes, text, at).with(|d| {
+                d.value(ValueKind::Current, count as f64, "-").value(
+                    ValueKind::UpperLimit,
+                    most as f64,
+                    "-",
+                )
+            }));
+        }
+        for (axis, _, at) in &words.axes {
+            if !machine.axes[*axis].measures() {
+                let name = names.name(*axis).to_owned();
+                let number = machine.axes[*axis].number();
+                let text = format!("axis {name} does not take part in measuring runs");
+                return Err(Fault::new(Condition::NoMeasuringAxis, text, *at)
+                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
+            }
+        }
+        let stop =
+            |(axis, _, _): &&(usize, f64, Span)| machine.axes[*axis].fixed_stop_lag_mm().is_some();
+        if kind == 7 && words.axes.iter().find(stop).is_none() {
+            let text = "measuring type 7: none of the axes of the run looks for a fixed stop";
+            let hint = "set kenngr.meas_signal_fixed_stop to 1 and a lag in kenngr.fixed_stop_pos_lag_limit";
+            return Err(Fault::new(Condition::NoMeasuringAxis, text, g.span).hint(hint));
+        }
+        Ok(())
+    }
+}
+
+impl Geometry {
+    /// G101: adds measuring offsets times their factors to the offsets; G102: removes them again, for all axes if it names
+    /// none.
+    pub(in crate::exec) fn measuring_offsets(
+        &mut self,
+        takes_in: bool,
+        g: &GWord,
+        words: &Words<'_>,
+        measuring: &Measuring,
+        names: &AxisNames,
+    ) -> Outcome<()> {
+        if !takes_in {
+            let all = words.axes.is_empty();
+            for axis in 0..self.coordinates.target().len() {
+                if all || words.axes.iter().any(|(a, _, _)| *a == axis) {
+                    self.coordinates.set_measuring_offset(axis, 0.0);
+                }
+            }
+            return Ok(());
+        }
+        if words.axes.is_empty() {
+            let text = format!("G{} without axis words", g.row.number);
+            return Err(Fault::new(Condition::AxisMissing, text, g.span));
+        }
+        for (axis, factor, at) in &words.axes {
+            let Some(offset) = measuring.results[*axis].offset else {
+                let text = format!("axis {} has not been measured", names.name(*axis));
+                return Err(Fault::new(Condition::NotMeasured, text, *at));
+            };
+            let coordinates = &mut self.coordinates;
+            if coordinates.is_turned(*axis) {
+                let text = format!("G101 of {} in a turned coordinate system", names.name(*axis));
+                return Err(Fault::unsupported(text, *at));
+            }
+            // an offset is added to programmed positions (342045451), so that mirroring acts on it as on them
+            let sign = if coordinates.mirrored(*axis) { -1.0 } else { 1.0 };
+            coordinates.set_measuring_offset(*axis, sign * factor * offset);
+        }
+        Ok(())
+    }
+}
+
+impl MotionState {
+    /// End of a run: reads the measured values and the positions of the axes. Returns the label of G310 if the probe has
+    /// signalled.
+    pub(in crate::exec) fn end_of_measuring(
+        &mut self,
+        live: &mut Live,
+        coordinates: &mut Coordinates,
+        report: &mut Report,
+    ) -> Option<Jump> {
+        let pending = self.measuring.pending.take()?;
+        let Pending { axes, target, missing, jump, source, span } = *pending;
+        // a check has no probe: the surface is assumed at the target
+        let (signal, rest) = match live.take_measured() {
+            Some(probed) => (probed.signal_mm, Some(probed.rest_mm)),
+            None => (Some(coordinates.target().clone()), None),
+        };
+        if let Some(signal) = &signal {
+            coordinates.set_target(signal);
+            for axis in &axes {
+                let program = coordinates.programmed(*axis);
+                self.measuring.results[*axis] = Measured {
+                    value: program + coordinates.applied_offset(*axis),
+                    axis: signal[*axis],
+                    program,
+                    offset: Some(program - target[*axis]),
+                    signalled: true,
+                };
+            }
+        } else {
+            for axis in &axes {
+                self.measuring.results[*axis].signalled = false;
+            }
+            if let Some(severity) = missing {
+                let text = "the probe has not signalled on the way to the target";
+                let fault = Fault::new(Condition::NoProbeSignal, text, span);
+                report.note(fault.with(|d| d.severity(severity)).in_block(source));
+            }
+        }
+        if let Some(rest) = rest {
+            coordinates.set_target(&rest);
+        }
+        self.follow_masters(coordinates);
+        jump.filter(|_| signal.is_some())
     }
 }
 
@@ -140,7 +291,13 @@ impl Decoder {
             let text = format!("G{} without axis words", g.row.number);
             return Err(Fault::new(Condition::MeasuringWay, text, g.span));
         }
-        self.axes_measure(g, words)?;
+        self.motion.measuring.axes_measure(
+            g,
+            words,
+            &self.geometry.coordinates,
+            &self.machine,
+            &self.names,
+        )?;
         if self.modal.compensation != Compensation::Off {
             let text = "a measuring run while tool radius compensation is active";
             return Err(Fault::new(Condition::MeasuringCompensated, text, g.span));
@@ -152,134 +309,6 @@ impl Decoder {
         }
         if self.contour.akima.selected {
             return Err(Fault::unsupported("measuring in a spline", g.span));
-        }
-        Ok(())
-    }
-
-    /// The axes of a run: their number, and whether the lists let them measure.
-    fn axes_measure(&self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        let kind = self.motion.measuring.kind;
-        let most = match kind {
-            2 => 1,
-            4 => 3,
-            _ => usize::MAX,
-        };
-        let is_main = |axis: usize| self.geometry.coordinates.main_index(axis).is_some();
-        let other = words.axes.iter().find(|(axis, _, _)| kind == 4 && !is_main(*axis));
-        if words.axes.len() > most || other.is_some() {
-            let at = words.axes.get(most).or(other).map_or(g.span, |(_, _, at)| *at);
-            let count = words.axes.len();
-            let text = match other {
-                Some((axis, _, _)) if count <= most => {
-                    format!(
-                        "axis {} with measuring type 4: only main axes are allowed",
-                        self.names.name(*axis)
-                    )
-                }
-                _ => format!("{count} axes with measuring type {kind}, maximum: {most}"),
-            };
-            return Err(Fault::new(Condition::MeasuringAxes, text, at).with(|d| {
-                d.value(ValueKind::Current, count as f64, "-").value(
-                    ValueKind::UpperLimit,
-                    most as f64,
-                    "-",
-                )
-            }));
-        }
-        for (axis, _, at) in &words.axes {
-            if !self.machine.axes[*axis].measures() {
-                let name = self.names.name(*axis).to_owned();
-                let number = self.machine.axes[*axis].number();
-                let text = format!("axis {name} does not take part in measuring runs");
-                return Err(Fault::new(Condition::NoMeasuringAxis, text, *at)
-                    .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
-            }
-        }
-        let stop = |(axis, _, _): &&(usize, f64, Span)| {
-            self.machine.axes[*axis].fixed_stop_lag_mm().is_some()
-        };
-        if kind == 7 && words.axes.iter().find(stop).is_none() {
-            let text = "measuring type 7: none of the axes of the run looks for a fixed stop";
-            let hint = "set kenngr.meas_signal_fixed_stop to 1 and a lag in kenngr.fixed_stop_pos_lag_limit";
-            return Err(Fault::new(Condition::NoMeasuringAxis, text, g.span).hint(hint));
-        }
-        Ok(())
-    }
-
-    /// End of a run: reads the measured values and the positions of the axes. Returns the label of G310 if the probe has
-    /// signalled.
-    pub(in crate::exec) fn end_of_measuring(&mut self) -> Option<Jump> {
-        let pending = self.motion.measuring.pending.take()?;
-        let Pending { axes, target, missing, jump, source, span } = *pending;
-        // a check has no probe: the surface is assumed at the target
-        let (signal, rest) = match self.live.take_measured() {
-            Some(probed) => (probed.signal_mm, Some(probed.rest_mm)),
-            None => (Some(self.geometry.coordinates.target().clone()), None),
-        };
-        if let Some(signal) = &signal {
-            self.geometry.coordinates.set_target(signal);
-            for axis in &axes {
-                let program = self.geometry.coordinates.programmed(*axis);
-                self.motion.measuring.results[*axis] = Measured {
-                    value: program + self.geometry.coordinates.applied_offset(*axis),
-                    axis: signal[*axis],
-                    program,
-                    offset: Some(program - target[*axis]),
-                    signalled: true,
-                };
-            }
-        } else {
-            for axis in &axes {
-                self.motion.measuring.results[*axis].signalled = false;
-            }
-            if let Some(severity) = missing {
-                let text = "the probe has not signalled on the way to the target";
-                let fault = Fault::new(Condition::NoProbeSignal, text, span);
-                self.report.note(fault.with(|d| d.severity(severity)).in_block(source));
-            }
-        }
-        if let Some(rest) = rest {
-            self.geometry.coordinates.set_target(&rest);
-        }
-        self.motion.follow_masters(&mut self.geometry.coordinates);
-        jump.filter(|_| signal.is_some())
-    }
-
-    /// G101: adds measuring offsets times their factors to the offsets; G102: removes them again, for all axes if it names
-    /// none.
-    pub(in crate::exec) fn measuring_offsets(
-        &mut self,
-        takes_in: bool,
-        g: &GWord,
-        words: &Words<'_>,
-    ) -> Outcome<()> {
-        if !takes_in {
-            let all = words.axes.is_empty();
-            for axis in 0..self.machine.axes.len() {
-                if all || words.axes.iter().any(|(a, _, _)| *a == axis) {
-                    self.geometry.coordinates.set_measuring_offset(axis, 0.0);
-                }
-            }
-            return Ok(());
-        }
-        if words.axes.is_empty() {
-            let text = format!("G{} without axis words", g.row.number);
-            return Err(Fault::new(Condition::AxisMissing, text, g.span));
-        }
-        for (axis, factor, at) in &words.axes {
-            let Some(offset) = self.motion.measuring.results[*axis].offset else {
-                let text = format!("axis {} has not been measured", self.names.name(*axis));
-                return Err(Fault::new(Condition::NotMeasured, text, *at));
-            };
-            let coordinates = &mut self.geometry.coordinates;
-            if coordinates.is_turned(*axis) {
-                let text =
-                    format!("G101 of {} in a turned coordinate system", self.names.name(*axis));
-                return Err(Fault::unsupported(text, *at));
-            }
-            // an offset is added to programmed positions (342045451), so that mirroring acts on it as on them
-            let sign = if coordinates.mirrored(*axis) { -1.0 } else { 1.0 };
-            coordinates.set_measuring_offset(*axis, sign * factor * offset);
         }
         Ok(())
     }

@@ -106,8 +106,14 @@ impl Decoder {
         self.motion.areas.moves_unwatched(axis, &self.names, span)?;
         match (keys.on.or(keys.osc_on), keys.off) {
             (Some(_), None) => {
-                self.moves_outside_curves(axis, span)?;
-                self.moves_untransformed(axis, span)?;
+                self.motion.moves_outside_curves(
+                    axis,
+                    &self.modal,
+                    &self.contour,
+                    &self.names,
+                    span,
+                )?;
+                self.geometry.moves_untransformed(axis, &self.names, span)?;
                 self.oscillation(axis, &keys, span)
             }
             (None, Some(_)) => {
@@ -156,8 +162,9 @@ impl Decoder {
         }
         // a path in motion stops first
         self.sync(Sync::Halt);
-        self.check_limit(axis, reversal_mm[0], at);
-        self.check_limit(axis, reversal_mm[1], second_at);
+        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+        limits.check_target(axis, reversal_mm[0], &mut self.report, at);
+        limits.check_target(axis, reversal_mm[1], &mut self.report, second_at);
         let from_mm = self.geometry.coordinates.target()[axis];
         self.geometry.coordinates.place(axis, reversal_mm[1]);
         self.motion.independent.way[axis] += reversal_mm[1] - from_mm;

@@ -8,13 +8,15 @@ use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::Modal;
-use crate::exec::contour::{FeedCourse, Motion, PathOf};
+use crate::exec::contour::{Contour, FeedCourse, Motion, PathOf};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::state::{Contouring, MotionState};
+use crate::exec::output::output;
 use crate::exec::report::{Report, Subject};
+use crate::machine::Channel;
 use crate::machine::table::tool;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
@@ -31,6 +33,24 @@ impl Modal {
             report.note_once(Subject::G(901), Fault::new(Condition::Ignored, text, span));
         }
         late
+    }
+
+    /// Words of arcs in a straight motion: R is kept for the next arc.
+    fn keep_radius(&mut self, words: &Words<'_>, report: &mut Report) {
+        if let Some((_, at)) = words.centre.iter().flatten().next()
+            && words.group(Group::Insertion).is_none()
+        {
+            let text = "I, J and K have no meaning in a straight motion";
+            report.note(Fault::new(Condition::Odd, text, *at).warning());
+        }
+        if let Some((radius, at)) = words.radius {
+            self.radius_mm = Some(radius * self.unit_mm());
+            // in a block with an error, such as a cycle of another control, a complaint about R would only distract
+            if !report.failed() {
+                let text = "R has no meaning in a straight motion: it is kept for the next arc";
+                report.note(Fault::new(Condition::Odd, text, at).warning());
+            }
+        }
     }
 }
 
@@ -50,6 +70,34 @@ impl Geometry {
 }
 
 impl MotionState {
+    /// Motions and modes that cannot be combined with a spline (G151).
+    fn spline_fits(
+        &self,
+        rapid: bool,
+        coordinates: &Coordinates,
+        modal: &Modal,
+        span: Span,
+    ) -> Outcome<()> {
+        let what = if rapid {
+            "G00 in a spline"
+        } else if modal.compensation != Compensation::Off {
+            "a spline with tool radius compensation"
+        } else if !coordinates.frame().only_shifts() {
+            "a spline in a rotated or mirrored system"
+        } else if modal.feed_type == FeedType::PerRevolution && self.cutting.speed.is_some() {
+            "a spline with G95 under G96"
+        } else {
+            return Ok(());
+        };
+        Err(Fault::unsupported(what, span))
+    }
+
+    /// The straight path between two positions of the axes; `None` without travel.
+    pub(super) fn line(&self, start: AxisVec, end: AxisVec) -> Option<Path> {
+        let (start, end) = (self.independent.on_path(start), self.independent.on_path(end));
+        LinePath::new(start, end, self.limits.feed_axes()).map(Path::Line)
+    }
+
     /// 120566: the feed rate of contoured motions refers to the main axes.
     ///
     /// Source: TF5200 diagnosis 265098635.
@@ -66,16 +114,18 @@ impl MotionState {
         let is_main = |axis: usize| coordinates.main_index(axis).is_some();
         self.limits.feed_axes().iter().enumerate().all(|(axis, member)| *member == is_main(axis))
     }
-}
 
-impl Decoder {
     /// Tolerances of the active B-spline, which has one for the feed group and one for all other axes.
     ///
     /// PATH_DEV belongs to the main axes and TRACK_DEV to the others (207308683); with another feed group (P-CHAN-00240 = 1)
     /// both groups keep the smaller one.
-    pub(super) fn spline_settings(&self) -> Option<SplineSettings> {
-        let spline = self.contour.hsc.spline()?;
-        if self.motion.feeds_main_axes(&self.geometry.coordinates) {
+    pub(super) fn spline_settings(
+        &self,
+        coordinates: &Coordinates,
+        contour: &Contour,
+    ) -> Option<SplineSettings> {
+        let spline = contour.hsc.spline()?;
+        if self.feeds_main_axes(coordinates) {
             return Some(spline);
         }
         let limits =
@@ -85,25 +135,100 @@ impl Decoder {
     }
 
     /// The ramp times of motions in coordinate systems are the longest ones of the main axes (P-CHAN-00758).
-    pub(super) fn update_ramps(&mut self) {
-        let coordinates = &self.geometry.coordinates;
-        let longest =
-            self.machine.channel.dynamics.longest_ramp_in_systems && coordinates.systems() > 0;
+    pub(super) fn update_ramps(&mut self, coordinates: &Coordinates, channel: &Channel) {
+        let longest = channel.dynamics.longest_ramp_in_systems && coordinates.systems() > 0;
         let main = |i| coordinates.main_axis(i).filter(|_| longest);
-        self.motion.limits.use_longest_ramps_of([0, 1, 2].map(main));
+        self.limits.use_longest_ramps_of([0, 1, 2].map(main));
     }
 
     /// Whether polynomial contouring is active: G261, or G61 at the corner after the last motion.
-    pub(in crate::exec) fn is_contouring(&self) -> bool {
-        let once = self.motion.contouring == Contouring::Once;
-        self.modal.contouring || once && self.contour.has_contoured_corner()
+    pub(in crate::exec) fn is_contouring(&self, modal: &Modal, contour: &Contour) -> bool {
+        let once = self.contouring == Contouring::Once;
+        modal.contouring || once && contour.has_contoured_corner()
     }
 
+    /// Whether the corner at the end of the block is rounded by contouring. What an exact stop or contouring does to HSC is noted.
+    fn rounds_corner(
+        &mut self,
+        words: &Words<'_>,
+        modal: &Modal,
+        contour: &mut Contour,
+        report: &mut Report,
+        span: Span,
+    ) -> bool {
+        let stops = modal.exact_stop || words.has(Act::ExactStopOnce);
+        let rounds = !stops && (modal.contouring || words.has(Act::ContourOnce));
+        if rounds {
+            self.contouring = if modal.contouring { Contouring::Modal } else { Contouring::Once };
+        }
+        if stops {
+            contour.spline_stops(span, report);
+        }
+        if rounds && contour.hsc.contour().is_some() {
+            let text = "G61, G261 and #HSC [OPMODE=1] at once: the corner is rounded by #CONTOUR MODE, not within CONTERROR";
+            let fault = Fault::new(Condition::Fallback, text, span);
+            report
+                .note_once("CONTERROR", fault.hint("switch one of the two off: G260 or #HSC OFF"));
+        }
+        rounds
+    }
+
+    /// Whether the feed group permits contouring and B-splines.
+    fn group_fits_corner(
+        &self,
+        rounds: bool,
+        coordinates: &Coordinates,
+        channel: &Channel,
+        contour: &Contour,
+        span: Span,
+    ) -> Outcome<()> {
+        if rounds {
+            self.contouring_fits(coordinates, span)?;
+        }
+        if contour.hsc.spline().is_some()
+            && !channel.spline_feed_of_group
+            && !self.feeds_main_axes(coordinates)
+        {
+            let what = "a feed group other than the main axes on a B-spline (P-CHAN-00240 = 0)";
+            return Err(Fault::unsupported(what, span));
+        }
+        Ok(())
+    }
+}
+
+impl Contour {
+    /// A spline (G151) excludes B-splines and contouring; `rounds`: contouring of this block.
+    fn spline_stands_alone(&self, rounds: bool, span: Span) -> Outcome<()> {
+        if self.hsc.spline().is_some() {
+            let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
+            return Err(Fault::new(Condition::SplineInSurface, text, span));
+        }
+        if rounds || self.hsc.contour().is_some() {
+            let text = "a spline (G151) combined with contouring or #HSC";
+            return Err(Fault::new(Condition::SplineWithContouring, text, span));
+        }
+        Ok(())
+    }
+
+    /// The path of the next motion that counts for the software limits.
+    pub(super) fn path_of_next(&self, modal: &Modal) -> PathOf {
+        let with_tool = modal.compensation != Compensation::Off || self.departure_follows();
+        if with_tool { PathOf::Tool } else { PathOf::Program }
+    }
+}
+
+impl Decoder {
     pub(super) fn motion(&mut self, words: &Words<'_>, is_arc: bool, span: Span) -> Outcome<()> {
         let Some(path) = self.path_of_block(words, is_arc, span)? else { return Ok(()) };
-        self.join_for(&path);
+        self.join(self.motion.independent.moved_by(&path));
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
-        let feed = self.feed_of(&path, at)?;
+        let feed = self.motion.feed_of(
+            &path,
+            &self.geometry.coordinates,
+            &self.modal,
+            output!(self),
+            at,
+        )?;
         let end_velocity_mm_s = match words.end_feed {
             Some(end) => self.modal.end_velocity(end, feed, &self.machine, &path)?,
             None => None,
@@ -111,17 +236,33 @@ impl Decoder {
         let rapid = feed == Feed::Rapid;
         let full = words.has(Act::FullOverride);
         let feed_ratio = if full { 1.0 } else { self.motion.override_of(&path, rapid) };
-        let rounds = self.rounds_corner(words, span);
+        let rounds = self.motion.rounds_corner(
+            words,
+            &self.modal,
+            &mut self.contour,
+            &mut self.report,
+            span,
+        );
         let early_once = words.has(Act::EarlyBrakingOnce);
         let late_braking = self.modal.brakes_late(early_once, span, &mut self.report);
-        self.group_fits_corner(rounds, span)?;
+        self.motion.group_fits_corner(
+            rounds,
+            &self.geometry.coordinates,
+            &self.machine.channel,
+            &self.contour,
+            span,
+        )?;
         let course = self.feed_course(words, &path, feed, rounds, span)?;
-        let hsc = (self.contour.hsc.contour(), self.spline_settings());
+        let hsc = (
+            self.contour.hsc.contour(),
+            self.motion.spline_settings(&self.geometry.coordinates, &self.contour),
+        );
         let shaped = rounds || hsc.0.is_some() || hsc.1.is_some() || self.contour.akima.selected;
         self.motion.areas.fit(shaped, &self.names, span)?;
-        let in_plane = self.in_plane(span)?;
+        let in_plane = self.geometry.in_plane(&self.modal, &self.motion, span)?;
         if self.contour.akima.selected {
-            self.spline_fits(rapid, rounds, span)?;
+            self.contour.spline_stands_alone(rounds, span)?;
+            self.motion.spline_fits(rapid, &self.geometry.coordinates, &self.modal, span)?;
             self.geometry.spline_leads(&path, span)?;
         }
         // a block with an error causes no motion; conditions reported before it are still output
@@ -129,7 +270,7 @@ impl Decoder {
             return Ok(());
         }
         let (contour, spline) = hsc;
-        self.update_ramps();
+        self.motion.update_ramps(&self.geometry.coordinates, &self.machine.channel);
         let block = self.spare.place(Block {
             seq: 0,
             path,
@@ -166,7 +307,7 @@ impl Decoder {
             let text = "an arc after G40 with G239: its start is not where it was programmed";
             return Err(Fault::new(Condition::CompensationInArc, text, span));
         }
-        self.join_named(words);
+        self.join(self.motion.independent.named_in(words, &self.machine.channel));
         let before = self.geometry.coordinates.programmed_point();
         let start = self.program_targets(words)?;
         if let Some(axis) = self.geometry.turned_offset() {
@@ -179,14 +320,26 @@ impl Decoder {
             self.report.note_once("tool_fixed", fault.hint("as with wz[i].tool_fixed 1"));
         }
         let path = if self.modal.path == PathMode::ArcInSpace {
-            Some(self.arc_in_space(start, before, words, span)?)
+            self.contour.permits_arc_in_space(&self.modal, span)?;
+            Some(self.geometry.arc_in_space(
+                (start, before),
+                words,
+                &self.modal,
+                &self.motion,
+                span,
+            )?)
         } else if is_arc {
             Some(self.arc(start, words, span)?)
         } else {
-            self.line_of_block(start, words)
+            self.modal.keep_radius(words, &mut self.report);
+            self.motion.line(start, self.geometry.coordinates.target().clone())
         };
         if self.motion.areas.is_defining() {
-            return self.area_block(path.as_ref(), words, span).map(|()| None);
+            return self
+                .motion
+                .areas
+                .area_block(path.as_ref(), words, &self.geometry, &self.modal, span)
+                .map(|()| None);
         }
         // a block without travel needs no feed rate
         let Some(path) = path else { return Ok(None) };
@@ -195,94 +348,12 @@ impl Decoder {
             let text = "tool radius compensation starts with an arc while #OTC is on";
             return Err(Fault::new(Condition::WearSelectedInArc, text, span));
         }
-        if self.path_of_next() == PathOf::Program {
+        if self.contour.path_of_next(&self.modal) == PathOf::Program {
             let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
-            self.check_limits(&path, place, span);
+            let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+            limits.check(&path, place, &mut self.report, span);
         }
         Ok(Some(path))
-    }
-
-    /// The straight path to the targets; `None` without travel. Words of arcs are noted.
-    fn line_of_block(&mut self, start: AxisVec, words: &Words<'_>) -> Option<Path> {
-        let end = self.geometry.coordinates.target().clone();
-        if let Some((_, at)) = words.centre.iter().flatten().next()
-            && words.group(Group::Insertion).is_none()
-        {
-            let text = "I, J and K have no meaning in a straight motion";
-            self.report.note(Fault::new(Condition::Odd, text, *at).warning());
-        }
-        if let Some((radius, at)) = words.radius {
-            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
-            // in a block with an error, such as a cycle of another control, a complaint about R would only distract
-            if !self.report.failed() {
-                let text = "R has no meaning in a straight motion: it is kept for the next arc";
-                self.report.note(Fault::new(Condition::Odd, text, at).warning());
-            }
-        }
-        let independent = &self.motion.independent;
-        let (start, end) = (independent.on_path(start), independent.on_path(end));
-        LinePath::new(start, end, self.motion.limits.feed_axes()).map(Path::Line)
-    }
-
-    /// Whether the corner at the end of the block is rounded by contouring. What an exact stop or contouring does to HSC is noted.
-    fn rounds_corner(&mut self, words: &Words<'_>, span: Span) -> bool {
-        let stops = self.modal.exact_stop || words.has(Act::ExactStopOnce);
-        let rounds = !stops && (self.modal.contouring || words.has(Act::ContourOnce));
-        if rounds {
-            self.motion.contouring =
-                if self.modal.contouring { Contouring::Modal } else { Contouring::Once };
-        }
-        if stops {
-            self.contour.spline_stops(span, &mut self.report);
-        }
-        if rounds && self.contour.hsc.contour().is_some() {
-            let text = "G61, G261 and #HSC [OPMODE=1] at once: the corner is rounded by #CONTOUR MODE, not within CONTERROR";
-            let fault = Fault::new(Condition::Fallback, text, span);
-            self.report
-                .note_once("CONTERROR", fault.hint("switch one of the two off: G260 or #HSC OFF"));
-        }
-        rounds
-    }
-
-    /// Whether the feed group permits contouring and B-splines.
-    fn group_fits_corner(&self, rounds: bool, span: Span) -> Outcome<()> {
-        if rounds {
-            self.motion.contouring_fits(&self.geometry.coordinates, span)?;
-        }
-        if self.contour.hsc.spline().is_some()
-            && !self.machine.channel.spline_feed_of_group
-            && !self.motion.feeds_main_axes(&self.geometry.coordinates)
-        {
-            let what = "a feed group other than the main axes on a B-spline (P-CHAN-00240 = 0)";
-            return Err(Fault::unsupported(what, span));
-        }
-        Ok(())
-    }
-
-    /// Functions that cannot be combined with splines.
-    fn spline_fits(&self, rapid: bool, rounds: bool, span: Span) -> Outcome<()> {
-        if self.contour.hsc.spline().is_some() {
-            let text = "a spline (G151) while #HSC ON [BSPLINE] is active";
-            return Err(Fault::new(Condition::SplineInSurface, text, span));
-        }
-        if rounds || self.contour.hsc.contour().is_some() {
-            let text = "a spline (G151) combined with contouring or #HSC";
-            return Err(Fault::new(Condition::SplineWithContouring, text, span));
-        }
-        let what = if rapid {
-            "G00 in a spline"
-        } else if self.modal.compensation != Compensation::Off {
-            "a spline with tool radius compensation"
-        } else if !self.geometry.coordinates.frame().only_shifts() {
-            "a spline in a rotated or mirrored system"
-        } else if self.modal.feed_type == FeedType::PerRevolution
-            && self.motion.cutting.speed.is_some()
-        {
-            "a spline with G95 under G96"
-        } else {
-            return Ok(());
-        };
-        Err(Fault::unsupported(what, span))
     }
 
     /// A motion with G95 under G96: its feed rate changes with the speed of the spindle.
@@ -304,13 +375,6 @@ impl Decoder {
         Ok(())
     }
 
-    /// The path of the next motion that counts for the software limits.
-    pub(super) fn path_of_next(&self) -> PathOf {
-        let with_tool =
-            self.modal.compensation != Compensation::Off || self.contour.departure_follows();
-        if with_tool { PathOf::Tool } else { PathOf::Program }
-    }
-
     /// Passes a motion on.
     pub(super) fn send(
         &mut self,
@@ -323,7 +387,7 @@ impl Decoder {
         let akima = self.contour.akima.selected && block.path.is_straight();
         let watch =
             self.motion.areas.watch(&self.geometry, &self.motion.independent.way, &self.names);
-        let path_of = self.path_of_next();
+        let path_of = self.contour.path_of_next(&self.modal);
         let motion = Box::new(Motion {
             block,
             path_of,
@@ -341,11 +405,8 @@ impl Decoder {
             span,
         });
         self.moved = true;
-        for fault in self.contour.motion(motion) {
-            self.report.note(Box::new(fault));
-        }
-        for fault in self.limits_of_compensated() {
-            self.report.note(Box::new(fault));
-        }
+        self.report.extend(self.contour.motion(motion));
+        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+        self.report.extend(self.contour.take_outside(&limits));
     }
 }

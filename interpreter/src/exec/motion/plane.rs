@@ -2,10 +2,11 @@
 
 use crate::diag::Condition;
 use crate::exec::block::choice::{Compensation, Corners};
+use crate::exec::block::modal::Modal;
 use crate::exec::contour::Compensated;
-use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
+use crate::exec::motion::state::MotionState;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::Tilt;
@@ -51,20 +52,20 @@ impl Geometry {
         let tilt = Some(Box::new(Tilt { axes, m: frame.m, t_mm }));
         Ok(PlaneImage { main: [a, b], keeps_sense: true, tilt })
     }
-}
 
-impl Decoder {
     /// Axes of the active plane, its coordinate system if it is oblique to the axes, and the compensation.
-    pub(super) fn in_plane(&self, span: Span) -> Outcome<InPlane> {
-        let axis = |m: usize| self.geometry.coordinates.main_axis(m);
-        let compensated = self.modal.compensation != Compensation::Off
-            && !self.modal.commanded.compensation_suppressed;
-        let PlaneImage { main, keeps_sense, tilt } = self.geometry.image_of_plane(
-            self.modal.plane.main_axes(),
-            &self.motion.independent.way,
-            span,
-        )?;
-        if compensated && tilt.is_some() && self.motion.wear.on && self.motion.wear.radius {
+    pub(super) fn in_plane(
+        &self,
+        modal: &Modal,
+        motion: &MotionState,
+        span: Span,
+    ) -> Outcome<InPlane> {
+        let axis = |m: usize| self.coordinates.main_axis(m);
+        let compensated =
+            modal.compensation != Compensation::Off && !modal.commanded.compensation_suppressed;
+        let PlaneImage { main, keeps_sense, tilt } =
+            self.image_of_plane(modal.plane.main_axes(), &motion.independent.way, span)?;
+        if compensated && tilt.is_some() && motion.wear.on && motion.wear.radius {
             let what = "#OTC [RADIUS] in a plane askew to the axes";
             return Err(Fault::unsupported(what, span));
         }
@@ -75,19 +76,18 @@ impl Decoder {
             }
             return Ok(InPlane { plane: [0, 0], tilt, compensation: None });
         };
-        let left = (self.modal.compensation == Compensation::Left) == keeps_sense;
-        let radius = self.geometry.tools.active.radius_mm;
+        let left = (modal.compensation == Compensation::Left) == keeps_sense;
+        let radius = self.tools.active.radius_mm;
         let compensation = compensated.then_some(Compensated {
             distance_mm: if left { radius } else { -radius },
-            straight_corners: (self.modal.corners == Corners::Straight)
-                .then_some(self.modal.commanded.corner_stretch),
-            reverse: self.modal.commanded.turns_back,
-            perpendicular_change: self.modal.commanded.perpendicular_change,
-            selection: self.modal.selection,
-            engagement_radius_mm: self
-                .modal
+            straight_corners: (modal.corners == Corners::Straight)
+                .then_some(modal.commanded.corner_stretch),
+            reverse: modal.commanded.turns_back,
+            perpendicular_change: modal.commanded.perpendicular_change,
+            selection: modal.selection,
+            engagement_radius_mm: modal
                 .engagement_feed
-                .then_some(self.modal.commanded.engagement_radius_mm),
+                .then_some(modal.commanded.engagement_radius_mm),
         });
         Ok(InPlane { plane: [first, second], tilt, compensation })
     }

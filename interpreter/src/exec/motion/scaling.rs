@@ -11,13 +11,24 @@ use crate::diag::Condition;
 use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
-use crate::exec::decoder::Decoder;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::Contour;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
+use crate::exec::names::AxisNames;
+use crate::exec::report::Report;
+use crate::machine::Machine;
 use crate::syntax::ast::Span;
 
-impl Decoder {
+impl Geometry {
     /// `#SCALE ON X2 Y2`, `#SCALE X2`, `#SCALE OFF`: returns whether the axis words of the block belong to the command.
-    pub(in crate::exec) fn scaling_words(&mut self, words: &Words<'_>) -> bool {
+    pub(in crate::exec) fn scaling_words(
+        &mut self,
+        words: &Words<'_>,
+        machine: &Machine,
+        names: &AxisNames,
+        report: &mut Report,
+    ) -> bool {
         let found = words.hashes.iter().find_map(|(hash, _, at)| match &*hash.name {
             "SCALE" => Some((None, *at)),
             "SCALE ON" => Some((Some(true), *at)),
@@ -25,12 +36,19 @@ impl Decoder {
             _ => None,
         });
         let Some((switch, at)) = found else { return false };
-        let outcome = self.switch_scaling(switch, words, at);
-        self.report.keep(outcome);
+        let outcome = self.switch_scaling(switch, words, machine, names, at);
+        report.keep(outcome);
         true
     }
 
-    fn switch_scaling(&mut self, switch: Option<bool>, words: &Words<'_>, at: Span) -> Outcome<()> {
+    fn switch_scaling(
+        &mut self,
+        switch: Option<bool>,
+        words: &Words<'_>,
+        machine: &Machine,
+        names: &AxisNames,
+        at: Span,
+    ) -> Outcome<()> {
         let factors = &words.axes;
         let before = words.axis_before(at).or(words.of_the_path().map(|g| g.span));
         if let Some(span) = before {
@@ -45,48 +63,54 @@ impl Decoder {
             let text = "#SCALE needs ON, OFF or factors";
             return Err(Fault::new(Condition::TokenUnknown, text, at).hint("#SCALE ON X2 Y2"));
         }
-        if let (true, Some((_, _, span))) = (self.geometry.scale.is_on(), factors.first()) {
+        if let (true, Some((_, _, span))) = (self.scale.is_on(), factors.first()) {
             let text = "the factors of #SCALE cannot change while scaling is on";
             return Err(Fault::new(Condition::Syntax, text, *span).hint("write #SCALE OFF first"));
         }
         for (axis, factor, span) in factors {
-            if !self.machine.axes[*axis].is_linear() {
-                let what = format!("#SCALE of the rotary axis {}", self.names.name(*axis));
+            if !machine.axes[*axis].is_linear() {
+                let what = format!("#SCALE of the rotary axis {}", names.name(*axis));
                 return Err(Fault::unsupported(what, *span));
             }
             if *factor <= 0.0 || !factor.is_finite() {
-                let name = self.names.name(*axis);
+                let name = names.name(*axis);
                 let text = format!("#SCALE {name}{factor}: a factor must be greater than 0");
                 return Err(Fault::new(Condition::KeyRange, text, *span));
             }
         }
         for (axis, factor, _) in factors {
-            self.geometry.scale.set(*axis, *factor);
+            self.scale.set(*axis, *factor);
         }
         if let Some(on) = switch {
-            self.geometry.scale.switch(on);
+            self.scale.switch(on);
         }
         Ok(())
     }
 
     /// Refuses what the page does not describe for scaled contours.
-    pub(super) fn scaling_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
-        if !self.geometry.scale.is_on() {
+    pub(super) fn scaling_fits(
+        &self,
+        words: &Words<'_>,
+        modal: &Modal,
+        contour: &Contour,
+        span: Span,
+    ) -> Outcome<()> {
+        if !self.scale.is_on() {
             return Ok(());
         }
         let measures = words.group(Group::Measuring).is_some_and(|g| g.row.act == Act::Measure);
         let lines = |name: &str| matches!(name, "ANG" | "CANG");
         let what = if measures {
             "a measuring run"
-        } else if self.modal.path.is_thread() {
+        } else if modal.path.is_thread() {
             "a thread"
-        } else if self.modal.path == PathMode::ArcInSpace {
+        } else if modal.path == PathMode::ArcInSpace {
             "G303"
-        } else if self.contour.akima.selected {
+        } else if contour.akima.selected {
             "a spline"
-        } else if self.geometry.coordinates.is_machine() {
+        } else if self.coordinates.is_machine() {
             "a motion in machine coordinates (#MCS)"
-        } else if self.modal.diameter.is_some() {
+        } else if modal.diameter.is_some() {
             "diameter programming (G51)"
         } else if words.hashes.iter().any(|(hash, _, _)| lines(&hash.name)) {
             "#ANG or #CANG"

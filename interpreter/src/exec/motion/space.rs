@@ -6,9 +6,11 @@
 use crate::diag::Condition;
 use crate::exec::block::choice::Compensation;
 use crate::exec::block::collected::Words;
-use crate::exec::contour::local_ends;
-use crate::exec::decoder::Decoder;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::{Contour, local_ends};
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
+use crate::exec::motion::state::MotionState;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, Tilt, TiltedArc};
@@ -56,33 +58,40 @@ fn through(a: Vector, m: Vector, e: Vector) -> Option<(Vector, [Vector; 3], f64)
     Some((centre, [first, second, normal], sweep))
 }
 
-impl Decoder {
-    /// G303: from `from` (programmed: `before`) over I J K to the target.
-    pub(super) fn arc_in_space(
-        &mut self,
-        from: AxisVec,
-        before: Vector,
-        words: &Words<'_>,
-        span: Span,
-    ) -> Outcome<Path> {
-        if self.modal.compensation != Compensation::Off {
+impl Contour {
+    /// G303 needs a path without tool radius compensation.
+    pub(super) fn permits_arc_in_space(&self, modal: &Modal, span: Span) -> Outcome<()> {
+        if modal.compensation != Compensation::Off {
             let text = "an arc in space while tool radius compensation is active";
             return Err(Fault::new(Condition::SpaceArcWithCompensation, text, span));
         }
-        if self.contour.compensates() {
+        if self.compensates() {
             let text =
                 "an arc in space after G40: a straight motion must lead away from the contour";
             return Err(Fault::new(Condition::SpaceArcAfterCompensation, text, span));
         }
-        let coordinates = &self.geometry.coordinates;
+        Ok(())
+    }
+}
+
+impl Geometry {
+    /// G303: from `from` (programmed: `before`) over I J K to the target.
+    pub(super) fn arc_in_space(
+        &self,
+        (from, before): (AxisVec, Vector),
+        words: &Words<'_>,
+        modal: &Modal,
+        motion: &MotionState,
+        span: Span,
+    ) -> Outcome<Path> {
+        let coordinates = &self.coordinates;
         let main = std::array::from_fn::<_, 3, _>(|m| coordinates.main_axis(m));
         let [Some(x), Some(y), Some(z)] = main else {
             let text = "G303 needs three main axes in the channel";
             return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
         };
         if self
-            .geometry
-            .image_of_plane(self.modal.plane.main_axes(), &self.motion.independent.way, span)?
+            .image_of_plane(modal.plane.main_axes(), &motion.independent.way, span)?
             .tilt
             .is_some()
         {
@@ -90,14 +99,14 @@ impl Decoder {
         }
         let axes = [x, y, z];
         let via = std::array::from_fn(|m| match words.centre[m] {
-            Some((value, _)) if self.modal.absolute => value * self.modal.unit_mm(),
-            Some((value, _)) => before[m] + value * self.modal.unit_mm(),
+            Some((value, _)) if modal.absolute => value * modal.unit_mm(),
+            Some((value, _)) => before[m] + value * modal.unit_mm(),
             None => before[m],
         });
         let via = coordinates.to_machine(via);
-        let via = std::array::from_fn(|m| via[m] - self.motion.independent.way[axes[m]]);
-        let from = self.motion.independent.on_path(from);
-        let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
+        let via = std::array::from_fn(|m| via[m] - motion.independent.way[axes[m]]);
+        let from = motion.independent.on_path(from);
+        let target = motion.independent.on_path(self.coordinates.target().clone());
         let point = |p: &AxisVec| axes.map(|axis| p[axis]);
         let Some((centre, plane, sweep_rad)) = through(point(&from), via, point(&target)) else {
             let text =
@@ -108,10 +117,9 @@ impl Decoder {
         let tilt = Tilt { axes, m, t_mm: centre };
         let (start, end) = local_ends(&tilt, &from, &target);
         let shape = ArcShape { plane: [x, y], centre_mm: [0.0; 2], sweep_rad };
-        let arc =
-            ArcPath::new(start, end, shape, self.motion.limits.feed_axes()).ok_or_else(|| {
-                Fault::new(Condition::ArcRadiusZero, "the radius of the arc is 0", span)
-            })?;
+        let arc = ArcPath::new(start, end, shape, motion.limits.feed_axes()).ok_or_else(|| {
+            Fault::new(Condition::ArcRadiusZero, "the radius of the arc is 0", span)
+        })?;
         Ok(Path::Tilted(Box::new(TiltedArc::new(arc, tilt, from, target))))
     }
 }

@@ -160,6 +160,15 @@ impl MotionState {
         self.limits.dynamics(machine, modal, beside, rapid)
     }
 
+    /// Names of the spindles: those of their lists, and P-CHAN-00053.
+    pub(in crate::exec) fn spindle_names<'a>(
+        &'a self,
+        channel: &'a Channel,
+    ) -> impl Iterator<Item = &'a str> {
+        let main = std::iter::once(&*channel.spindles.main_name);
+        self.spindles.iter().map(|s| &*s.name).chain(main)
+    }
+
     /// The spindle with this name, in upper or lower case: the name of its list, and for the main spindle P-CHAN-00053.
     pub(in crate::exec) fn spindle_of_name(&self, name: &str, channel: &Channel) -> Option<usize> {
         let main = name.eq_ignore_ascii_case(&channel.spindles.main_name);

@@ -12,13 +12,14 @@ use crate::exec::contour::PathOf;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Outcome;
 use crate::exec::geometry::coordinates::Target;
+use crate::exec::output::output;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::Channel;
 use crate::machine::is_outside;
 use crate::syntax::ast::Span;
 use crate::syntax::{Plain, PlainValue, PlainWord};
 use kontur_motion::axis::AxisVec;
-use kontur_motion::block::{Block, Feed};
+use kontur_motion::block::{Block, Feed, SpareBlocks};
 use kontur_motion::path::{LinePath, Path};
 use smallvec::SmallVec;
 use std::sync::Arc;
@@ -97,6 +98,25 @@ impl Straight {
         let mut block = Block::new(0, path, self.feed, Arc::clone(&self.dynamics));
         self.hand_to(&mut block);
         block
+    }
+
+    /// A block from one position to another, if possible in the memory of an earlier one; `None` if no axis moves.
+    #[inline]
+    fn block_between(
+        &self,
+        (start, end): (&AxisVec, &AxisVec),
+        feed_axes: &[bool],
+        spare: &mut SpareBlocks,
+    ) -> Option<Box<Block>> {
+        if let Some(mut block) = spare.take() {
+            if !block.path.lead(start, end, feed_axes) {
+                return None;
+            }
+            self.hand_to(&mut block);
+            return Some(block);
+        }
+        let line = LinePath::new(start.clone(), end.clone(), feed_axes)?;
+        Some(Box::new(self.block(Path::Line(line))))
     }
 
     /// Gives a block everything but its path.
@@ -192,7 +212,11 @@ impl Decoder {
         let offsets = shared.as_ref().map(|shared| &shared.offsets[..]);
         coordinates.program_with(offsets, words.targets.iter().map(|(target, _)| *target));
         let (block, shared) = if let Some(shared) = shared {
-            let Some(block) = self.straight_block(&start, &shared) else { return Some(shared) };
+            let ends = (&start, self.geometry.coordinates.target());
+            let feed_axes = self.motion.limits.feed_axes();
+            let Some(block) = shared.block_between(ends, feed_axes, &mut self.spare) else {
+                return Some(shared);
+            };
             self.check_line(&start, words);
             (block, shared)
         } else {
@@ -211,21 +235,6 @@ impl Decoder {
         let in_plane = InPlane { plane: shared.plane, tilt: None, compensation: None };
         self.send(block, in_plane, None, words.span);
         Some(shared)
-    }
-
-    /// The block from a position to the targets, if possible in the memory of an earlier one; `None` if no axis moves.
-    fn straight_block(&mut self, start: &AxisVec, shared: &Straight) -> Option<Box<Block>> {
-        let end = self.geometry.coordinates.target();
-        let feed_axes = self.motion.limits.feed_axes();
-        if let Some(mut block) = self.spare.take() {
-            if !block.path.lead(start, end, feed_axes) {
-                return None;
-            }
-            shared.hand_to(&mut block);
-            return Some(block);
-        }
-        let line = LinePath::new(start.clone(), end.clone(), feed_axes)?;
-        Some(Box::new(shared.block(Path::Line(line))))
     }
 
     /// Replaces the previous motion by the motion to the targets of a block; returns the time of the previous one if there is a
@@ -256,7 +265,7 @@ impl Decoder {
             limits.is_none_or(|l| !is_outside(start[axis], l) && !is_outside(end[axis], l))
         };
         if words.targets.iter().all(|(target, _)| inside(target.axis))
-            || self.path_of_next() == PathOf::Tool
+            || self.contour.path_of_next(&self.modal) == PathOf::Tool
         {
             return;
         }
@@ -265,10 +274,11 @@ impl Decoder {
             let at = words.targets.iter().find(|(target, _)| target.axis == axis);
             at.map_or(words.span, |(_, at)| *at)
         };
+        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
         for axis in 0..end.len() {
             let (from, to) = (start[axis], end[axis]);
             let (low, high) = (from.min(to), from.max(to));
-            if let Some(fault) = self.limits().outside(axis, low, high, Some(to), || place(axis)) {
+            if let Some(fault) = limits.outside(axis, low, high, Some(to), || place(axis)) {
                 self.report.note(fault);
             }
         }
@@ -276,10 +286,16 @@ impl Decoder {
 
     /// State valid for this motion and the following ones.
     fn share(&mut self, path: &Path, at: Span) -> Outcome<Box<Straight>> {
-        let feed = self.feed_of(path, at)?;
+        let feed = self.motion.feed_of(
+            path,
+            &self.geometry.coordinates,
+            &self.modal,
+            output!(self),
+            at,
+        )?;
         let rapid = feed == Feed::Rapid;
-        let InPlane { plane, .. } = self.in_plane(at)?;
-        self.update_ramps();
+        let InPlane { plane, .. } = self.geometry.in_plane(&self.modal, &self.motion, at)?;
+        self.motion.update_ramps(&self.geometry.coordinates, &self.machine.channel);
         Ok(Box::new(Straight {
             feed,
             feed_ratio: self.motion.overrides.ratio(rapid, 0..1),
@@ -287,7 +303,7 @@ impl Decoder {
             dynamics: self.motion.dynamics(&self.machine, &self.modal, rapid),
             tolerance: self.shaping.tolerance(),
             contour: self.contour.hsc.contour(),
-            spline: self.spline_settings(),
+            spline: self.motion.spline_settings(&self.geometry.coordinates, &self.contour),
             plane,
             offsets: self.geometry.coordinates.active_offsets(),
         }))

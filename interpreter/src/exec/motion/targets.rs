@@ -2,13 +2,15 @@
 
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
+use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::{OffsetKind, Target};
 use crate::exec::geometry::{Geometry, modulo};
 use crate::exec::names::AxisNames;
 use crate::exec::values::number::LARGEST_MM;
-use crate::syntax::ast::{Group, ItemKind, Sign};
+use crate::machine::Machine;
+use crate::syntax::ast::{Group, ItemKind, Sign, Span};
 use kontur_motion::axis::AxisVec;
 
 /// Targets of one block.
@@ -44,6 +46,61 @@ impl Geometry {
         }
         Ok(())
     }
+
+    /// The coordinate of a modulo axis that is reached in the programmed direction from its position; `without`: suppressed
+    /// offsets.
+    fn unwrapped(
+        &self,
+        target: &Target,
+        words: &Words<'_>,
+        position: f64,
+        without: Option<&[OffsetKind]>,
+        machine: &Machine,
+    ) -> Outcome<f64> {
+        let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
+        let turn = if machine.channel.language.shortest_way {
+            None
+        } else {
+            turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?
+        };
+        let offset = match without {
+            Some(kinds) => self.coordinates.offset_without(kinds, target.axis),
+            None => self.coordinates.active_offset(target.axis),
+        };
+        // the distance is measured in the coordinate: a mirrored axis turns in the opposite direction
+        let bare = position - offset;
+        let mirrored = self.coordinates.mirrored(target.axis);
+        let from = if mirrored { -bare } else { bare };
+        let range_deg = machine.axes[target.axis].modulo_deg();
+        Ok(modulo::unwrapped(target.value, turn, from, range_deg))
+    }
+
+    /// Diameters must be neither negative nor mirrored.
+    ///
+    /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.
+    fn diameters_fit(
+        &self,
+        words: &Words<'_>,
+        machine: &Machine,
+        modal: &Modal,
+        names: &AxisNames,
+    ) -> Outcome<()> {
+        let Some(turned) = modal.diameter else { return Ok(()) };
+        for (i, (axis, value, at)) in words.axes.iter().enumerate() {
+            let absolute = words.is_absolute(i, modal.absolute);
+            if *axis != turned || !machine.axes[*axis].takes_diameters(absolute) {
+                continue;
+            }
+            let mirrored = self.coordinates.mirrored(*axis);
+            if mirrored || (absolute && *value < 0.0) {
+                let name = names.name(*axis);
+                let what = if mirrored { "mirrored" } else { "negative" };
+                let text = format!("{name}{value} is a {what} diameter (G51)");
+                return Err(Fault::new(Condition::DiameterNegative, text, *at));
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Decoder {
@@ -59,16 +116,13 @@ impl Decoder {
             .enumerate()
             .map(|(i, (axis, value, _))| {
                 let absolute = words.is_absolute(i, self.modal.absolute);
-                let value = value * self.coordinate_unit(*axis, absolute);
+                let value = value
+                    * self.geometry.coordinate_unit(*axis, absolute, &self.machine, &self.modal);
                 Target { axis: *axis, value, absolute }
             })
             .collect();
-        let too_large = targets.iter().position(|t| t.value.abs() > LARGEST_MM);
-        if let Some((axis, value, at)) = too_large.and_then(|i| words.axes.get(i)) {
-            let text = format!("{}{value} is outside the data format", self.names.name(*axis));
-            return Err(Fault::new(Condition::CoordinateTooLarge, text, *at));
-        }
-        self.diameters_fit(words)?;
+        in_format(&targets, words, &self.names)?;
+        self.geometry.diameters_fit(words, &self.machine, &self.modal, &self.names)?;
         if self.machine.channel.language.several_words {
             targets = joined(targets);
         }
@@ -77,19 +131,17 @@ impl Decoder {
             turns_go_forward(&targets, words, &self.names)?;
         }
         self.geometry.turns_within_the_channel(&targets, words, &self.names)?;
-        let suppressed = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
-        let suppressed = match suppressed {
-            Some((hash, _, at)) => {
-                let kinds =
-                    hash.bracket.as_ref().map_or_else(|| Ok(OffsetKind::ALL.to_vec()), kinds)?;
-                Some((kinds, *at))
-            }
-            None => None,
-        };
+        let suppressed = suppressed_offsets(words)?;
         let without = suppressed.as_ref().map(|(kinds, _)| &kinds[..]);
         for target in targets.iter_mut().filter(|t| t.absolute) {
             if self.machine.axes[target.axis].is_modulo() {
-                target.value = self.unwrapped(target, words, start[target.axis], without)?;
+                target.value = self.geometry.unwrapped(
+                    target,
+                    words,
+                    start[target.axis],
+                    without,
+                    &self.machine,
+                )?;
             }
         }
         match suppressed {
@@ -105,57 +157,30 @@ impl Decoder {
         for slave in self.motion.couplings.slaves() {
             start[slave] = self.geometry.coordinates.target()[slave];
         }
-        self.follow_turning_centre(&start);
+        self.motion.follow_turning_centre(
+            &start,
+            &self.geometry.coordinates,
+            &self.modal,
+            &mut self.contour,
+        );
         Ok(start)
     }
+}
 
-    /// The coordinate of a modulo axis that is reached in the programmed direction from its position; `without`: suppressed
-    /// offsets.
-    fn unwrapped(
-        &self,
-        target: &Target,
-        words: &Words<'_>,
-        position: f64,
-        without: Option<&[OffsetKind]>,
-    ) -> Outcome<f64> {
-        let turn = words.turns.iter().find(|(axis, _)| *axis == target.axis);
-        let turn = if self.machine.channel.language.shortest_way {
-            None
-        } else {
-            turn.map(|(_, sign)| *sign).transpose().map_err(modulo::two_readings)?
-        };
-        let offset = match without {
-            Some(kinds) => self.geometry.coordinates.offset_without(kinds, target.axis),
-            None => self.geometry.coordinates.active_offset(target.axis),
-        };
-        // the distance is measured in the coordinate: a mirrored axis turns in the opposite direction
-        let bare = position - offset;
-        let mirrored = self.geometry.coordinates.mirrored(target.axis);
-        let from = if mirrored { -bare } else { bare };
-        let range_deg = self.machine.axes[target.axis].modulo_deg();
-        Ok(modulo::unwrapped(target.value, turn, from, range_deg))
-    }
+/// Refuses a target outside the data format.
+fn in_format(targets: &[Target], words: &Words<'_>, names: &AxisNames) -> Outcome<()> {
+    let too_large = targets.iter().position(|t| t.value.abs() > LARGEST_MM);
+    let Some((axis, value, at)) = too_large.and_then(|i| words.axes.get(i)) else { return Ok(()) };
+    let text = format!("{}{value} is outside the data format", names.name(*axis));
+    Err(Fault::new(Condition::CoordinateTooLarge, text, *at))
+}
 
-    /// Diameters must be neither negative nor mirrored.
-    ///
-    /// Source: TF5200 diagnosis 250554251, 20019. Assumption: the sign of incremental words is their direction.
-    fn diameters_fit(&self, words: &Words<'_>) -> Outcome<()> {
-        let Some(turned) = self.modal.diameter else { return Ok(()) };
-        for (i, (axis, value, at)) in words.axes.iter().enumerate() {
-            let absolute = words.is_absolute(i, self.modal.absolute);
-            if *axis != turned || !self.machine.axes[*axis].takes_diameters(absolute) {
-                continue;
-            }
-            let mirrored = self.geometry.coordinates.mirrored(*axis);
-            if mirrored || (absolute && *value < 0.0) {
-                let name = self.names.name(*axis);
-                let what = if mirrored { "mirrored" } else { "negative" };
-                let text = format!("{name}{value} is a {what} diameter (G51)");
-                return Err(Fault::new(Condition::DiameterNegative, text, *at));
-            }
-        }
-        Ok(())
-    }
+/// The kinds of offsets that `#SUPPRESS OFFSETS` leaves out in the block, and its place.
+fn suppressed_offsets(words: &Words<'_>) -> Outcome<Option<(Vec<OffsetKind>, Span)>> {
+    let found = words.hashes.iter().find(|(h, _, _)| &*h.name == "SUPPRESS OFFSETS");
+    let Some((hash, _, at)) = found else { return Ok(None) };
+    let kinds = hash.bracket.as_ref().map_or_else(|| Ok(OffsetKind::ALL.to_vec()), kinds)?;
+    Ok(Some((kinds, *at)))
 }
 
 /// One target per axis: incremental words are summed, an absolute word replaces those before it.

@@ -22,15 +22,18 @@ use crate::diag::Condition;
 use crate::exec::block::choice::{Compensation, FeedType, PathMode};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::Act;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::coordinates::Coordinates;
-use crate::exec::motion::state::Threads;
+use crate::exec::motion::state::{MotionState, Threads};
 use crate::exec::names::AxisNames;
 use crate::exec::step::Sync;
+use crate::machine::Channel;
 use crate::syntax::ast::{ItemKind, Span};
 use kontur_motion::block::{Block, Feed};
-use kontur_motion::path::{LinePath, Path};
+use kontur_motion::path::Path;
 use std::sync::Arc;
 
 /// Smallest and largest pitch in mm. Assumption: the vendor prints no range; 0 is not a pitch.
@@ -82,85 +85,25 @@ impl Threads {
     }
 }
 
-impl Decoder {
-    /// End of G33: the path stops, and no longer follows the spindle.
-    pub(in crate::exec) fn end_thread(&mut self) {
-        if std::mem::take(&mut self.motion.threads.cutting) {
-            self.sync(Sync::ThreadEnd);
-        }
-    }
-
-    /// A block of G33, G63, G331 or G332.
-    pub(in crate::exec) fn thread_motion(&mut self, words: &Words<'_>, span: Span) -> Outcome<()> {
-        let mode = self.modal.path;
-        self.thread_fits(words, span)?;
-        if let Some((_, at)) = words.end_feed {
-            let text = "E in a thread: its speed is that of the pitch";
-            return Err(Fault::new(Condition::Syntax, text, at));
-        }
-        let start = self.program_targets(words)?;
-        let end = self.geometry.coordinates.target().clone();
-        let (start, end) =
-            (self.motion.independent.on_path(start), self.motion.independent.on_path(end));
-        for (main, word) in words.centre.iter().enumerate() {
-            let Some((pitch, at)) = word else { continue };
-            let pitch_mm = pitch * self.modal.unit_mm();
-            if !(PITCH_MM.0..=PITCH_MM.1).contains(&pitch_mm.abs()) {
-                let text = format!(
-                    "the pitch {pitch} of a thread is outside {} to {} mm",
-                    PITCH_MM.0, PITCH_MM.1
-                );
-                return Err(Fault::new(Condition::ThreadPitch, text, *at));
-            }
-            if let (Some(cut), PathMode::TapBack) = (self.motion.threads.pitch_mm[main], mode)
-                && (cut - pitch_mm).abs() > PITCH_ROUNDING_MM
-            {
-                // 413715595: the tool leaves the thread that it has cut
-                let text = format!(
-                    "the pitch {pitch} of G332 must be that of the thread, {}",
-                    cut / self.modal.unit_mm()
-                );
-                return Err(Fault::new(Condition::ThreadPitch, text, *at));
-            }
-            self.motion.threads.pitch_mm[main] = Some(pitch_mm);
-        }
-        let Some(line) = LinePath::new(start, end, self.motion.limits.feed_axes()) else {
-            let Some((axis, _, at)) = words.axes.first().filter(|_| mode.is_tapping()) else {
-                return Ok(());
-            };
-            let name = self.names.name(*axis).to_owned();
-            let text = format!("tapping without travel of axis {name}");
-            let number = self.machine.axes[*axis].number();
-            return Err(
-                Fault::new(Condition::TappingWithoutWay, text, *at).with(|d| d.axis(number, name))
-            );
-        };
-        let path = Path::Line(line);
-        let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
-        self.check_limits(&path, place, span);
-        self.join_for(&path);
-        if mode == PathMode::Thread {
-            self.cut_thread(path, words, span)
-        } else {
-            self.tap(path, has_full_override(words), span)
-        }
-    }
-
+impl MotionState {
     /// Tapping drives the spindle in every block until the next G function of its group.
     ///
     /// # Errors
     /// 21000: M3, M4, M5, M19 or a position of the main spindle while G63, G331 or G332 is active (208104203, 413715595).
-    pub(in crate::exec) fn leaves_the_spindle(&self, words: &Words<'_>) -> Outcome<()> {
-        let name = match self.modal.path_mode(words) {
+    pub(in crate::exec) fn leaves_the_spindle(
+        &self,
+        words: &Words<'_>,
+        modal: &Modal,
+        channel: &Channel,
+    ) -> Outcome<()> {
+        let name = match modal.path_mode(words) {
             PathMode::Tapping => "G63",
             PathMode::TapBack => "G332",
             mode if mode.is_tapping() => "G331",
             _ => return Ok(()),
         };
         let brackets = words.brackets.iter();
-        let main = brackets.filter(|b| {
-            self.motion.spindle_of_name(b.name.as_str(), &self.machine.channel) == Some(0)
-        });
+        let main = brackets.filter(|b| self.spindle_of_name(b.name.as_str(), channel) == Some(0));
         let bracketed = main.flat_map(|b| &b.group.items).filter_map(|item| match &item.kind {
             ItemKind::Flag(word) => {
                 let digits = word.text.strip_prefix(['M', 'm'])?;
@@ -187,29 +130,36 @@ impl Decoder {
     }
 
     /// Functions that cannot be combined with threads.
-    fn thread_fits(&self, words: &Words<'_>, span: Span) -> Outcome<()> {
-        if self.modal.compensation != Compensation::Off {
+    fn thread_fits(
+        &self,
+        words: &Words<'_>,
+        coordinates: &Coordinates,
+        modal: &Modal,
+        contour: &Contour,
+        span: Span,
+    ) -> Outcome<()> {
+        if modal.compensation != Compensation::Off {
             return Err(Fault::unsupported("a thread with tool radius compensation", span));
         }
-        if self.contour.akima.selected {
+        if contour.akima.selected {
             return Err(Fault::unsupported("a thread in a spline", span));
         }
-        if !self.geometry.coordinates.frame().only_shifts() {
+        if !coordinates.frame().only_shifts() {
             return Err(Fault::unsupported("a thread in a rotated or mirrored system", span));
         }
-        if self.motion.spindles[0].index.is_none() {
+        if self.spindles[0].index.is_none() {
             return Err(Fault::unsupported("a thread without a spindle in the machine", span));
         }
-        self.motion.no_spindle_override("a thread", span)?;
-        self.motion.no_tool_limit("a thread", 0, span)?;
-        if self.modal.path == PathMode::Thread {
+        self.no_spindle_override("a thread", span)?;
+        self.no_tool_limit("a thread", 0, span)?;
+        if modal.path == PathMode::Thread {
             return Ok(());
         }
-        if self.modal.feed_type == FeedType::PerRevolution {
+        if modal.feed_type == FeedType::PerRevolution {
             let text = "tapping with the feed per revolution (G95)";
             return Err(Fault::new(Condition::TappingPerRevolution, text, span));
         }
-        if self.motion.cutting.speed.is_some() {
+        if self.cutting.speed.is_some() {
             let text = "tapping with constant cutting speed (G96)";
             return Err(Fault::new(Condition::TappingCuttingSpeed, text, span));
         }
@@ -218,12 +168,81 @@ impl Decoder {
             return Err(Fault::new(Condition::TappingWithSpeedLimit, text, g.span));
         }
         let turns = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19));
-        if turns.is_some() || self.motion.spindles[0].is_turning() {
+        if turns.is_some() || self.spindles[0].is_turning() {
             let text = "tapping requires a stopped spindle: the spindle turns with the path";
             let at = turns.map_or(span, |m| m.span);
             return Err(Fault::new(Condition::SpindleTurns, text, at));
         }
         Ok(())
+    }
+}
+
+impl Decoder {
+    /// End of G33: the path stops, and no longer follows the spindle.
+    pub(in crate::exec) fn end_thread(&mut self) {
+        if std::mem::take(&mut self.motion.threads.cutting) {
+            self.sync(Sync::ThreadEnd);
+        }
+    }
+
+    /// A block of G33, G63, G331 or G332.
+    pub(in crate::exec) fn thread_motion(&mut self, words: &Words<'_>, span: Span) -> Outcome<()> {
+        let mode = self.modal.path;
+        self.motion.thread_fits(
+            words,
+            &self.geometry.coordinates,
+            &self.modal,
+            &self.contour,
+            span,
+        )?;
+        if let Some((_, at)) = words.end_feed {
+            let text = "E in a thread: its speed is that of the pitch";
+            return Err(Fault::new(Condition::Syntax, text, at));
+        }
+        let start = self.program_targets(words)?;
+        let end = self.geometry.coordinates.target().clone();
+        for (main, word) in words.centre.iter().enumerate() {
+            let Some((pitch, at)) = word else { continue };
+            let pitch_mm = pitch * self.modal.unit_mm();
+            if !(PITCH_MM.0..=PITCH_MM.1).contains(&pitch_mm.abs()) {
+                let text = format!(
+                    "the pitch {pitch} of a thread is outside {} to {} mm",
+                    PITCH_MM.0, PITCH_MM.1
+                );
+                return Err(Fault::new(Condition::ThreadPitch, text, *at));
+            }
+            if let (Some(cut), PathMode::TapBack) = (self.motion.threads.pitch_mm[main], mode)
+                && (cut - pitch_mm).abs() > PITCH_ROUNDING_MM
+            {
+                // 413715595: the tool leaves the thread that it has cut
+                let text = format!(
+                    "the pitch {pitch} of G332 must be that of the thread, {}",
+                    cut / self.modal.unit_mm()
+                );
+                return Err(Fault::new(Condition::ThreadPitch, text, *at));
+            }
+            self.motion.threads.pitch_mm[main] = Some(pitch_mm);
+        }
+        let Some(path) = self.motion.line(start, end) else {
+            let Some((axis, _, at)) = words.axes.first().filter(|_| mode.is_tapping()) else {
+                return Ok(());
+            };
+            let name = self.names.name(*axis).to_owned();
+            let text = format!("tapping without travel of axis {name}");
+            let number = self.machine.axes[*axis].number();
+            return Err(
+                Fault::new(Condition::TappingWithoutWay, text, *at).with(|d| d.axis(number, name))
+            );
+        };
+        let place = |axis| words.axes.iter().find(|(a, _, _)| *a == axis).map(|(_, _, at)| *at);
+        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+        limits.check(&path, place, &mut self.report, span);
+        self.join(self.motion.independent.moved_by(&path));
+        if mode == PathMode::Thread {
+            self.cut_thread(path, words, span)
+        } else {
+            self.tap(path, has_full_override(words), span)
+        }
     }
 
     fn thread_block(

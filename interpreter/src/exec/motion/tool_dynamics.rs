@@ -11,11 +11,11 @@
 //! the minimum speed.
 
 use crate::diag::{Condition, rounded};
-use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::tools::Tools;
 use crate::exec::motion::spindles::{Passed, Spindle, Turning};
 use crate::exec::motion::state::MotionState;
+use crate::exec::output::Output;
 use crate::exec::report::Report;
 use crate::exec::step::Event;
 use crate::machine::table::tool;
@@ -119,12 +119,15 @@ impl MotionState {
         }
         Ok(())
     }
-}
 
-impl Decoder {
     /// `S[GET_DYNAMIC_DATA]`: the limits passed on by D take effect at once.
-    pub(in crate::exec) fn take_tool_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
-        let state = &mut self.motion.spindles[spindle];
+    pub(in crate::exec) fn take_tool_limits(
+        &mut self,
+        spindle: usize,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        let state = &mut self.spindles[spindle];
         let limits = match std::mem::take(&mut state.passed) {
             Passed::Nothing => return Ok(()),
             Passed::Tool(limits) => Some(limits),
@@ -132,36 +135,42 @@ impl Decoder {
         };
         state.limits = limits;
         if let Some(index) = state.index {
-            self.contour.event(Event::SpindleLimits { spindle: index, limits });
+            output.contour.event(Event::SpindleLimits { spindle: index, limits });
         }
-        self.motion.spindles[spindle].check_tool_speed(&self.machine, &mut self.report, span)
+        self.spindles[spindle].check_tool_speed(output.machine, output.report, span)
     }
 
     /// `S[DEFAULT_DYNAMIC_DATA]`.
-    pub(in crate::exec) fn default_limits(&mut self, spindle: usize, span: Span) -> Outcome<()> {
-        self.motion.spindles[spindle].passed = Passed::List;
-        if self.motion.spindles[spindle].runs {
+    pub(in crate::exec) fn default_limits(
+        &mut self,
+        spindle: usize,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        self.spindles[spindle].passed = Passed::List;
+        if self.spindles[spindle].runs {
             return Ok(());
         }
-        self.take_tool_limits(spindle, span)
+        self.take_tool_limits(spindle, output, span)
     }
 
     /// The spindle changes to its commanded state; a start from standstill activates the limits of the tool first.
-    pub(in crate::exec) fn move_spindle(&mut self, spindle: usize, span: Span) -> Outcome<()> {
-        let state = &mut self.motion.spindles[spindle];
+    pub(in crate::exec) fn move_spindle(
+        &mut self,
+        spindle: usize,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        let state = &mut self.spindles[spindle];
         let starts = !state.runs && state.turning != Turning::Stopped;
         state.runs = state.is_turning();
         if starts && state.passed != Passed::Nothing {
-            self.take_tool_limits(spindle, span)?;
+            self.take_tool_limits(spindle, output, span)?;
         } else {
-            self.motion.spindles[spindle].check_tool_speed(
-                &self.machine,
-                &mut self.report,
-                span,
-            )?;
+            self.spindles[spindle].check_tool_speed(output.machine, output.report, span)?;
         }
-        if let Some(event) = self.motion.spindles[spindle].motion_event() {
-            self.contour.event(event);
+        if let Some(event) = self.spindles[spindle].motion_event() {
+            output.contour.event(event);
         }
         Ok(())
     }

@@ -4,20 +4,29 @@
 
 use super::state::wear::WearSource;
 use crate::diag::Condition;
-use crate::exec::decoder::Decoder;
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::Contour;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::Geometry;
+use crate::exec::motion::state::MotionState;
 use crate::exec::step::{Event, WearSetting, WornPart};
 use crate::machine::ToolKind;
 use crate::syntax::ast::Span;
 
-impl Decoder {
+impl MotionState {
     /// Passes the settings to the simulation: `#OTC ON`, or changed tool data while it is on.
-    pub(in crate::exec) fn apply_wear(&mut self, span: Span) -> Outcome<()> {
-        let wear = self.motion.wear;
+    pub(in crate::exec) fn apply_wear(
+        &self,
+        geometry: &Geometry,
+        modal: &Modal,
+        contour: &mut Contour,
+        span: Span,
+    ) -> Outcome<()> {
+        let wear = self.wear;
         if !wear.on {
             return Ok(());
         }
-        let tool = &self.geometry.tools.active;
+        let tool = &geometry.tools.active;
         if tool.kind != ToolKind::Grinding {
             let text = format!("#OTC ON with the data of a {} tool", tool.kind.name());
             return Err(Fault::new(Condition::WearWithoutWheel, text, span));
@@ -28,8 +37,8 @@ impl Decoder {
         let part = if wear.radius {
             WornPart::Radius
         } else {
-            let normal = self.modal.plane.main_axes()[2];
-            let Some(axis) = self.geometry.coordinates.main_axis(normal) else {
+            let normal = modal.plane.main_axes()[2];
+            let Some(axis) = geometry.coordinates.main_axis(normal) else {
                 let text = "#OTC [LENGTH]: the channel has no axis perpendicular to the plane";
                 return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
             };
@@ -44,8 +53,8 @@ impl Decoder {
             from_outside,
             acceleration_ratio: wear.acceleration_ratio,
         };
-        self.contour.report_engagement();
-        self.contour.event(Event::Wear(Some(setting)));
+        contour.report_engagement();
+        contour.event(Event::Wear(Some(setting)));
         Ok(())
     }
 }

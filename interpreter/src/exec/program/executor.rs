@@ -96,7 +96,8 @@ impl Executor {
         let (skip, budget) = (options.skip, Budget::new(&options));
         let mut decoder = Decoder::new(machine, options, &start);
         decoder.checking = checking;
-        let names = decoder.long_names();
+        let of_spindles = decoder.motion.spindle_names(&decoder.machine.channel);
+        let names = decoder.names.long_names(of_spindles);
         let asynchronous = decoder.machine.external.asynchronous();
         let mut executor = Self {
             parser: Parser::new(names.iter().map(String::as_str)),
@@ -228,7 +229,11 @@ impl Executor {
                 return step;
             }
             if self.decoder.motion.measuring.is_under_way() {
-                if let Some(label) = self.decoder.end_of_measuring() {
+                if let Some(label) = self.decoder.motion.end_of_measuring(
+                    &mut self.decoder.live,
+                    &mut self.decoder.geometry.coordinates,
+                    &mut self.decoder.report,
+                ) {
                     self.goto(&label);
                 }
                 self.settle(false);

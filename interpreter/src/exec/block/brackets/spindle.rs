@@ -14,7 +14,8 @@ use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
-use crate::exec::motion::state::Function;
+use crate::exec::motion::state::{Function, MotionState};
+use crate::exec::output::{Output, output};
 use crate::machine::Acknowledged;
 use crate::syntax::ast::{Bracket, Group, Item, ItemKind, Span};
 pub(super) use item::is_internal;
@@ -25,6 +26,108 @@ arguments! {
     /// Keys of `S[OVERRIDE ..]`.
     struct SpindleOverrideArguments {
         speed: Number "SPEED_FACT" in between(0.1, 200.0), "%", "";
+    }
+}
+
+impl MotionState {
+    /// Carries out one item. Whether the bracket contains M19, and any of M3, M4, M5 and M19: its synchronisation counts instead of
+    /// that of the speed (208010763).
+    fn spindle_action(
+        &mut self,
+        spindle: usize,
+        item: &SpindleItem,
+        [positions, turns]: [bool; 2],
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        match *item {
+            SpindleItem::Turn(number) => {
+                self.spindle_turns(spindle, number, positions, output, span)?;
+            }
+            SpindleItem::Function(function, value) => {
+                self.call(function, value, &output.machine.channel, output.contour);
+            }
+            SpindleItem::FullOverride => {}
+            SpindleItem::Home => {
+                let text = "G74: the spindle is treated as homed at its position and does not turn";
+                output.report.note_once("S[G74]", Fault::new(Condition::Fallback, text, span));
+            }
+            SpindleItem::Speed(rpm) => self.spindle_speed(spindle, rpm, turns, output, span)?,
+            SpindleItem::Position(deg) => self.spindles[spindle].angle_deg = deg,
+            SpindleItem::Acceleration(percent) => {
+                let ratio = weight_ratio((percent, span))?;
+                if ratio == 0.0 {
+                    let text = "G130=0: the spindle would never reach its speed";
+                    return Err(Fault::new(Condition::Range, text, span));
+                }
+                self.spindles[spindle].acceleration_ratio = ratio;
+                if let Some(event) = self.spindles[spindle].acceleration_event() {
+                    output.contour.event(event);
+                }
+            }
+            SpindleItem::Feedforward(on) => {
+                self.spindles[spindle].feedforward = on;
+                self.spindle_feedforward(spindle, output.contour);
+            }
+            SpindleItem::Weight(percent) if percent < 0.0 => {
+                let text = format!("feedforward weight {percent} % is negative");
+                return Err(Fault::new(Condition::FeedforwardNegative, text, span));
+            }
+            SpindleItem::Weight(percent) => {
+                let percent = limited_weight(percent, span, output.report);
+                self.spindles[spindle].weight_ratio = percent / 100.0;
+                self.spindle_feedforward(spindle, output.contour);
+            }
+        }
+        Ok(())
+    }
+
+    /// M3, M4, M5 and M19; `positions`: beside M19.
+    fn spindle_turns(
+        &mut self,
+        spindle: usize,
+        number: u32,
+        positions: bool,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        if number == 19 && spindle == 0 {
+            self.cutting.positions_main_spindle(span)?;
+        }
+        let state = &mut self.spindles[spindle];
+        let directs =
+            matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;
+        state.turning =
+            if directs { state.turning.with_direction(number) } else { Turning::of(number) };
+        if let Some(index) = state.index {
+            let function = Function::Spindle { spindle: index, m: number };
+            self.takes_time(function, &output.machine.channel, output.contour);
+        }
+        Ok(())
+    }
+
+    /// S; `turns`: beside M3, M4, M5 or M19.
+    fn spindle_speed(
+        &mut self,
+        spindle: usize,
+        rpm: f64,
+        turns: bool,
+        output: &mut Output<'_>,
+        span: Span,
+    ) -> Outcome<()> {
+        if !(0.0..=1e6).contains(&rpm) {
+            let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
+            let condition =
+                if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
+            return Err(Fault::new(condition, text, span));
+        }
+        self.spindles[spindle].rpm = rpm;
+        self.spindles[spindle].check_speed(output.machine, output.report, span);
+        if let Some(index) = self.spindles[spindle].index.filter(|_| !turns) {
+            let function = Function::Speed { spindle: index };
+            self.takes_time(function, &output.machine.channel, output.contour);
+        }
+        Ok(())
     }
 }
 
@@ -48,9 +151,9 @@ impl Decoder {
                 return Err(Fault::new(Condition::SpindleCommandsExclude, text, span));
             }
             return if default {
-                self.default_limits(spindle, span)
+                self.motion.default_limits(spindle, output!(self), span)
             } else {
-                self.take_tool_limits(spindle, span)
+                self.motion.take_tool_limits(spindle, output!(self), span)
             };
         }
         let functions: Vec<_> = group.items.iter().filter_map(function).collect();
@@ -74,10 +177,10 @@ impl Decoder {
         });
         let positions = items.iter().any(|(i, _)| matches!(i, SpindleItem::Turn(19)));
         for (item, span) in items {
-            self.spindle_action(spindle, &item, [positions, turns], span)?;
+            self.motion.spindle_action(spindle, &item, [positions, turns], output!(self), span)?;
         }
         if moves && (turns || self.motion.spindles[spindle].turning != Turning::Stopped) {
-            self.move_spindle(spindle, group.span)?;
+            self.motion.move_spindle(spindle, output!(self), group.span)?;
         }
         self.motion.spindles[spindle].warn(&mut self.report, group.span);
         Ok(())
@@ -153,7 +256,7 @@ impl Decoder {
             self.motion.no_spindle_override("G96", span)?;
         }
         if self.motion.spindles[spindle].is_turning() {
-            self.move_spindle(spindle, span)?;
+            self.motion.move_spindle(spindle, output!(self), span)?;
         }
         self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
         Ok(())
@@ -183,95 +286,6 @@ impl Decoder {
             };
             until == Some(Acknowledged::AfterMotion)
         })
-    }
-
-    /// Carries out one item. Whether the bracket contains M19, and any of M3, M4, M5 and M19: its synchronisation counts instead of
-    /// that of the speed (208010763).
-    fn spindle_action(
-        &mut self,
-        spindle: usize,
-        item: &SpindleItem,
-        [positions, turns]: [bool; 2],
-        span: Span,
-    ) -> Outcome<()> {
-        match *item {
-            SpindleItem::Turn(number) => self.spindle_turns(spindle, number, positions, span)?,
-            SpindleItem::Function(function, value) => {
-                self.motion.call(function, value, &self.machine.channel, &mut self.contour);
-            }
-            SpindleItem::FullOverride => {}
-            SpindleItem::Home => {
-                let text = "G74: the spindle is treated as homed at its position and does not turn";
-                self.report.note_once("S[G74]", Fault::new(Condition::Fallback, text, span));
-            }
-            SpindleItem::Speed(rpm) => self.spindle_speed(spindle, rpm, turns, span)?,
-            SpindleItem::Position(deg) => self.motion.spindles[spindle].angle_deg = deg,
-            SpindleItem::Acceleration(percent) => {
-                let ratio = weight_ratio((percent, span))?;
-                if ratio == 0.0 {
-                    let text = "G130=0: the spindle would never reach its speed";
-                    return Err(Fault::new(Condition::Range, text, span));
-                }
-                self.motion.spindles[spindle].acceleration_ratio = ratio;
-                if let Some(event) = self.motion.spindles[spindle].acceleration_event() {
-                    self.contour.event(event);
-                }
-            }
-            SpindleItem::Feedforward(on) => {
-                self.motion.spindles[spindle].feedforward = on;
-                self.motion.spindle_feedforward(spindle, &mut self.contour);
-            }
-            SpindleItem::Weight(percent) if percent < 0.0 => {
-                let text = format!("feedforward weight {percent} % is negative");
-                return Err(Fault::new(Condition::FeedforwardNegative, text, span));
-            }
-            SpindleItem::Weight(percent) => {
-                let percent = limited_weight(percent, span, &mut self.report);
-                self.motion.spindles[spindle].weight_ratio = percent / 100.0;
-                self.motion.spindle_feedforward(spindle, &mut self.contour);
-            }
-        }
-        Ok(())
-    }
-
-    /// M3, M4, M5 and M19; `positions`: beside M19.
-    fn spindle_turns(
-        &mut self,
-        spindle: usize,
-        number: u32,
-        positions: bool,
-        span: Span,
-    ) -> Outcome<()> {
-        if number == 19 && spindle == 0 {
-            self.motion.cutting.positions_main_spindle(span)?;
-        }
-        let state = &mut self.motion.spindles[spindle];
-        let directs =
-            matches!((state.turning, number), (Turning::Positioned(_), 3 | 4)) && positions;
-        state.turning =
-            if directs { state.turning.with_direction(number) } else { Turning::of(number) };
-        if let Some(index) = state.index {
-            let function = Function::Spindle { spindle: index, m: number };
-            self.motion.takes_time(function, &self.machine.channel, &mut self.contour);
-        }
-        Ok(())
-    }
-
-    /// S; `turns`: beside M3, M4, M5 or M19.
-    fn spindle_speed(&mut self, spindle: usize, rpm: f64, turns: bool, span: Span) -> Outcome<()> {
-        if !(0.0..=1e6).contains(&rpm) {
-            let text = format!("spindle speed {rpm} is outside 0 to 1000000 rev/min");
-            let condition =
-                if rpm < 0.0 { Condition::SpindleSpeedNegative } else { Condition::Range };
-            return Err(Fault::new(condition, text, span));
-        }
-        self.motion.spindles[spindle].rpm = rpm;
-        self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
-        if let Some(index) = self.motion.spindles[spindle].index.filter(|_| !turns) {
-            let function = Function::Speed { spindle: index };
-            self.motion.takes_time(function, &self.machine.channel, &mut self.contour);
-        }
-        Ok(())
     }
 }
 

@@ -2,11 +2,14 @@
 
 use super::{After, CallAfter, Then};
 use crate::diag::Condition;
-use crate::exec::block::collected::{Code, Words};
+use crate::exec::block::collected::{Code, Placed, Words};
+use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
+use crate::exec::geometry::Geometry;
 use crate::exec::motion::spindles::Turning;
-use crate::exec::motion::state::Function;
+use crate::exec::motion::state::{Function, MotionState};
+use crate::exec::output::{Output, output};
 use crate::exec::program::state::Calls;
 use crate::exec::report::{Report, Subject};
 use crate::exec::step::{Event, Sync};
@@ -25,7 +28,7 @@ enum MKind {
 }
 
 /// Whether a block has M3, M4, M5 or M19.
-pub(super) fn turns_spindle(words: &Words<'_>) -> bool {
+fn turns_spindle(words: &Words<'_>) -> bool {
     words.m.iter().any(|m| m_kind(m.number) == MKind::Spindle)
 }
 
@@ -81,34 +84,83 @@ impl Calls {
     }
 }
 
-impl Decoder {
-    /// `alone`: the block has no M function of the spindle, whose synchronisation counts instead of that of the speed (M19, then M3
-    /// to M5, then S: 208010763).
-    pub(super) fn speed(&mut self, index: usize, value: f64, alone: bool, span: Span) {
-        if !(0.0..=1e6).contains(&value) {
-            let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
-            self.report.note(Fault::new(Condition::Range, text, span));
-            return;
+impl MotionState {
+    /// S words: speeds, cutting speeds, or signed speeds of tapping. Returns a speed that takes effect after the motion.
+    pub(super) fn spindle_speeds(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        modal: &Modal,
+        output: &mut Output<'_>,
+    ) -> Option<Placed> {
+        let mut late = None;
+        let taps = modal.path_mode(words).is_tapping();
+        let outcome = self.cutting_words(words, geometry, modal, output);
+        output.report.keep(outcome);
+        let cuts = self.cutting.takes_s_words(words);
+        for (i, speed, span) in &words.speeds {
+            // for the main spindle, tapping and constant cutting speed process it
+            if *i == 0 {
+                self.threads.speed(taps.then_some(*speed));
+                if taps {
+                    // the S word is modal: it counts for M3 after the thread, the sign is that of the thread
+                    self.spindles[0].rpm = speed.abs();
+                    self.spindles[0].check_speed(output.machine, output.report, *span);
+                }
+            }
+            if *i != 0 {
+                let name = self.spindles[*i].name.clone();
+                let text =
+                    format!("{name} is not the main spindle: its speed must be in a bracket");
+                let hint = format!("write {name}[REV{speed}], or #MAIN SPINDLE [{name}] before it");
+                output.report.note(Fault::new(Condition::NotMainSpindle, text, *span).hint(hint));
+            } else if !(taps || cuts) {
+                let alone = !turns_spindle(words);
+                if alone && self.spindles[0].speeds_up_late(&output.machine.channel) {
+                    late = Some((*speed, *span));
+                } else {
+                    self.s_word(0, *speed, alone, output, *span);
+                }
+            }
         }
-        self.motion.spindles[index].rpm = value;
-        self.motion.spindles[index].check_speed(&self.machine, &mut self.report, span);
-        if let Some(spindle) = self.motion.spindles[index].index.filter(|_| alone) {
-            self.motion.takes_time(
-                Function::Speed { spindle },
-                &self.machine.channel,
-                &mut self.contour,
-            );
-        }
-        if self.motion.spindles[index].is_turning() {
-            let outcome = self.move_spindle(index, span);
-            self.report.keep(outcome);
-        }
-        self.motion.spindles[index].warn(&mut self.report, span);
+        late
     }
 
-    pub(super) fn functions_before(&mut self, words: &Words<'_>) {
+    /// An S word; `alone`: the block has no M function of the spindle, whose synchronisation counts instead of that of the speed (M19, then M3
+    /// to M5, then S: 208010763).
+    pub(super) fn s_word(
+        &mut self,
+        index: usize,
+        value: f64,
+        alone: bool,
+        output: &mut Output<'_>,
+        span: Span,
+    ) {
+        if !(0.0..=1e6).contains(&value) {
+            let text = format!("spindle speed {value} is outside 0 to 1000000 rev/min");
+            output.report.note(Fault::new(Condition::Range, text, span));
+            return;
+        }
+        self.spindles[index].rpm = value;
+        self.spindles[index].check_speed(output.machine, output.report, span);
+        if let Some(spindle) = self.spindles[index].index.filter(|_| alone) {
+            self.takes_time(Function::Speed { spindle }, &output.machine.channel, output.contour);
+        }
+        if self.spindles[index].is_turning() {
+            let outcome = self.move_spindle(index, output, span);
+            output.report.keep(outcome);
+        }
+        self.spindles[index].warn(output.report, span);
+    }
+
+    pub(super) fn functions_before(
+        &mut self,
+        words: &Words<'_>,
+        calls: &Calls,
+        output: &mut Output<'_>,
+    ) {
         for (spindle, deg, _) in &words.angles {
-            self.motion.spindles[*spindle].angle_deg = *deg;
+            self.spindles[*spindle].angle_deg = *deg;
         }
         let of_spindle = |m: &&Code| m_kind(m.number) == MKind::Spindle;
         let mut spindle = words.m.iter().filter(of_spindle).filter(|m| {
@@ -117,51 +169,57 @@ impl Decoder {
         if let (Some(first), Some(second)) = (spindle.next(), spindle.next()) {
             let (m, n) = (first.number, second.number);
             let text = format!("M{m:02} and M{n:02} in one block: both set the spindle");
-            self.report.note(Fault::new(Condition::DuplicateGroup, text, second.span));
+            output.report.note(Fault::new(Condition::DuplicateGroup, text, second.span));
         }
-        self.turn_main_spindle(words, SpindleMoment::BeforeMotion);
+        self.turn_main_spindle(words, SpindleMoment::BeforeMotion, output);
         for m in &words.m {
             match m_kind(m.number) {
-                MKind::Plain => self.m_function(m),
+                MKind::Plain => self.m_function(m, output),
                 // Assumption: waited for before the motion, as for every function; m_synch is not simulated
                 MKind::Stop { .. } => {
-                    self.motion.takes_declared_time(
+                    self.takes_declared_time(
                         Function::M(m.number),
-                        &self.machine.channel,
-                        &mut self.contour,
+                        &output.machine.channel,
+                        output.contour,
                     );
-                    self.motion.waits_for_operator(m.number, &mut self.contour);
+                    self.waits_for_operator(m.number, output.contour);
                 }
-                MKind::ToolChange if self.calls.tool_change_file.is_none() => self.m_function(m),
+                MKind::ToolChange if calls.tool_change_file.is_none() => self.m_function(m, output),
                 _ => {}
             }
         }
         for h in &words.h {
-            self.contour.event(Event::HFunction { number: h.number, value: h.value });
-            self.motion.takes_time(Function::H(h.number), &self.machine.channel, &mut self.contour);
+            output.contour.event(Event::HFunction { number: h.number, value: h.value });
+            self.takes_time(Function::H(h.number), &output.machine.channel, output.contour);
         }
     }
 
-    fn m_function(&mut self, m: &Code) {
-        if self.motion.measuring.banding
-            && self.machine.channel.functions.m_at_signal.contains(&m.number)
+    fn m_function(&mut self, m: &Code, output: &mut Output<'_>) {
+        if self.measuring.banding
+            && output.machine.channel.functions.m_at_signal.contains(&m.number)
         {
             // processed with the motion
             return;
         }
         if let Some(text) = crate::exec::block::dialect::m_function(m.number) {
             let fault = Fault::new(Condition::Dialect, text, m.span);
-            self.report.note_once(Subject::M(m.number), fault);
+            output.report.note_once(Subject::M(m.number), fault);
         }
-        self.contour.event(Event::MFunction { number: m.number, value: m.value });
-        self.motion.takes_time(Function::M(m.number), &self.machine.channel, &mut self.contour);
+        output.contour.event(Event::MFunction { number: m.number, value: m.value });
+        self.takes_time(Function::M(m.number), &output.machine.channel, output.contour);
     }
 
     /// Starts or stops the main spindle as programmed on one side of the motion of the block: before it, or after it with
     /// MNS_SNS. Assumption: M5 without an entry in the list also takes effect after it.
-    fn turn_main_spindle(&mut self, words: &Words<'_>, now: SpindleMoment) {
-        let listed = self.motion.spindles[0].index.and_then(|i| {
-            let waits: Option<&SpindleWaits> = self.machine.channel.functions.spindle_waits.get(i);
+    fn turn_main_spindle(
+        &mut self,
+        words: &Words<'_>,
+        now: SpindleMoment,
+        output: &mut Output<'_>,
+    ) {
+        let listed = self.spindles[0].index.and_then(|i| {
+            let waits: Option<&SpindleWaits> =
+                output.machine.channel.functions.spindle_waits.get(i);
             waits.copied()
         });
         let acts = |number: u32| match listed.unwrap_or_default().of_m(number) {
@@ -171,39 +229,41 @@ impl Decoder {
         };
         let of_spindle = words.m.iter().filter(|m| m_kind(m.number) == MKind::Spindle);
         for m in of_spindle.filter(|m| !is_direction(words, m) && acts(m.number) == now) {
-            self.turn(m, words.m.iter().find(|m| is_direction(words, m)).map(|m| m.number));
+            self.turn(m, words.m.iter().find(|m| is_direction(words, m)).map(|m| m.number), output);
         }
     }
 
-    fn turn(&mut self, m: &Code, direction: Option<u32>) {
-        let Some(spindle) = self.motion.spindles[0].index else {
+    fn turn(&mut self, m: &Code, direction: Option<u32>, output: &mut Output<'_>) {
+        let Some(spindle) = self.spindles[0].index else {
             let text = format!("M{:02}: the channel has no spindle", m.number);
-            self.report.note(Fault::new(Condition::MFunctionWithoutSpindle, text, m.span));
+            output.report.note(Fault::new(Condition::MFunctionWithoutSpindle, text, m.span));
             return;
         };
         if let (19, Some(deg)) = (m.number, m.value) {
-            self.motion.spindles[0].angle_deg = deg;
+            self.spindles[0].angle_deg = deg;
         }
         let turning = Turning::of(m.number);
-        self.motion.spindles[0].turning = match direction {
+        self.spindles[0].turning = match direction {
             Some(number) => turning.with_direction(number),
             None => turning,
         };
-        let outcome = self.move_spindle(0, m.span);
-        self.report.keep(outcome);
-        self.motion.takes_time(
+        let outcome = self.move_spindle(0, output, m.span);
+        output.report.keep(outcome);
+        self.takes_time(
             Function::Spindle { spindle, m: m.number },
-            &self.machine.channel,
-            &mut self.contour,
+            &output.machine.channel,
+            output.contour,
         );
         if m.number != 5 {
-            self.motion.spindles[0].warn(&mut self.report, m.span);
+            self.spindles[0].warn(output.report, m.span);
         }
     }
+}
 
+impl Decoder {
     pub(super) fn functions_after<'b>(&mut self, words: &Words<'b>) -> After<'b> {
         let mut then = Then::Next;
-        self.turn_main_spindle(words, SpindleMoment::AfterMotion);
+        self.motion.turn_main_spindle(words, SpindleMoment::AfterMotion, output!(self));
         for m in &words.m {
             match m_kind(m.number) {
                 MKind::Stop { optional } => self.sync(Sync::ProgramStop { optional }),

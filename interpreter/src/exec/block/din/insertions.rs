@@ -1,13 +1,14 @@
 //! Chamfers and roundings of a block: G301, G302, `#CHR`, `#CHF`, `#RND` with `#FRC`.
 
 use crate::diag::Condition;
-use crate::exec::block::collected::Words;
+use crate::exec::block::collected::{Placed, Words};
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::Modal;
 use crate::exec::contour::insertion::{Insertion, Kind};
-use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
+use crate::exec::motion::state::MotionState;
+use crate::exec::output::Output;
 use crate::exec::report::Report;
 use crate::exec::values::number::LARGEST_MM;
 use crate::machine::Channel;
@@ -25,16 +26,49 @@ pub(super) fn inserts_after(words: &Words<'_>) -> bool {
     moves && words.hashes.iter().any(|(hash, _, _)| of_corner(&hash.name))
 }
 
-impl Decoder {
-    pub(super) fn insertions(&mut self, words: &Words<'_>) {
-        if self
-            .report
-            .keep(insertions_are_on(&self.geometry, &self.machine.channel, words))
-            .is_none()
-        {
+/// A chamfer or rounding that a block requests: kind, size in mm, place.
+type Request = (Kind, f64, Span);
+
+impl Modal {
+    /// The chamfer or rounding of a block, between the motions before and after it.
+    pub(super) fn insertions(
+        &mut self,
+        words: &Words<'_>,
+        geometry: &Geometry,
+        motion: &MotionState,
+        output: &mut Output<'_>,
+    ) {
+        let on = insertions_are_on(geometry, &output.machine.channel, words);
+        if output.report.keep(on).is_none() {
             return;
         }
-        let mut request = self.modal.insertion(words, &mut self.report);
+        let by_function = self.insertion(words, output.report);
+        let (request, feed) = self.insertion_by_command(words, by_function, output.report);
+        if let Some((kind, size, at)) = request {
+            let feed = feed.map(|(value, at)| {
+                motion.feed_from((value, self.unit_mm()), &geometry.coordinates, self, output, at)
+            });
+            let feed = feed.and_then(|feed| output.report.keep(feed));
+            let source = output.report.source;
+            let insertion = Insertion { kind, size_mm: size, feed, span: at, source };
+            if let Some(fault) = output.contour.insert(insertion) {
+                output.report.note(fault);
+            }
+        } else if let Some((_, at)) = feed {
+            let text = "#FRC without chamfer or rounding has no effect";
+            output.report.note(Fault::new(Condition::Odd, text, at).warning());
+        }
+    }
+
+    /// The insertion of `#CHR`, `#CHF` or `#RND`, otherwise that of a G function, and the feed of `#FRC`. Commands without effect
+    /// beside the words of the block are noted.
+    fn insertion_by_command(
+        &self,
+        words: &Words<'_>,
+        by_function: Option<Request>,
+        report: &mut Report,
+    ) -> (Option<Request>, Option<Placed>) {
+        let mut request = by_function;
         let mut feed = None;
         for (hash, value, span) in &words.hashes {
             let kind = match &*hash.name {
@@ -42,7 +76,7 @@ impl Decoder {
                     feed = value.filter(|v| *v > 0.0).map(|v| (v, *span));
                     if feed.is_none() {
                         let text = "#FRC requires a feed greater than 0";
-                        self.report.note(Fault::new(Condition::Range, text, *span));
+                        report.note(Fault::new(Condition::Range, text, *span));
                     }
                     continue;
                 }
@@ -51,7 +85,7 @@ impl Decoder {
                     let text =
                         "#SUPPRESS OFFSETS without an axis word has no effect: it is not modal";
                     let fault = Fault::new(Condition::Odd, text, *span).warning();
-                    self.report.note(
+                    report.note(
                         fault.hint("write it in the block of the motion: #SUPPRESS OFFSETS X10"),
                     );
                     continue;
@@ -71,49 +105,36 @@ impl Decoder {
                 "ACHSE" if words.group(Group::Manual).is_some() => continue,
                 "ACHSE" => {
                     let text = "#ACHSE without G200, G201 or G202";
-                    self.report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
+                    report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
                     continue;
                 }
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
                 other => {
-                    self.report.note(Fault::unsupported(format!("#{other}"), *span));
+                    report.note(Fault::unsupported(format!("#{other}"), *span));
                     continue;
                 }
             };
-            match value.map(|v| v * self.modal.unit_mm()) {
+            match value.map(|v| v * self.unit_mm()) {
                 Some(size) if size > 0.0 => {
                     if request.replace((kind, size, *span)).is_some() {
                         let text = "two insertions in one block, the last one is used";
                         let condition = Condition::InsertionsWithoutMotion;
-                        self.report.note(Fault::new(condition, text, *span).warning());
+                        report.note(Fault::new(condition, text, *span).warning());
                     }
                 }
                 _ => {
                     let text = format!("#{} without a size", hash.name);
-                    self.report.note(Fault::new(Condition::Range, text, *span));
+                    report.note(Fault::new(Condition::Range, text, *span));
                 }
             }
         }
-        if let Some((kind, size, at)) = request {
-            let feed = feed.map(|(value, at)| self.feed_from(value, self.modal.unit_mm(), at));
-            let feed = feed.and_then(|feed| self.report.keep(feed));
-            let source = self.report.source;
-            let insertion = Insertion { kind, size_mm: size, feed, span: at, source };
-            if let Some(fault) = self.contour.insert(insertion) {
-                self.report.note(fault);
-            }
-        } else if let Some((_, at)) = feed {
-            let text = "#FRC without chamfer or rounding has no effect";
-            self.report.note(Fault::new(Condition::Odd, text, at).warning());
-        }
+        (request, feed)
     }
-}
 
-impl Modal {
     /// The insertion of G301 or G302; its size is modal.
-    fn insertion(&mut self, words: &Words<'_>, report: &mut Report) -> Option<(Kind, f64, Span)> {
+    fn insertion(&mut self, words: &Words<'_>, report: &mut Report) -> Option<Request> {
         let mut request = None;
         for g in &words.g {
             let kind = match g.row.act {

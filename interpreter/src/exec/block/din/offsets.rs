@@ -4,12 +4,18 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::{GWord, Words};
 use crate::exec::block::groups::{self, Act, Group};
+use crate::exec::block::modal::Modal;
+use crate::exec::contour::Contour;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::LAST_ZERO_GROUP;
+use crate::exec::motion::state::coupling::Couplings;
+use crate::exec::names::AxisNames;
 use crate::exec::report::Report;
+use crate::exec::step::Event;
 use crate::exec::values::number::whole;
+use crate::machine::Machine;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 
@@ -86,6 +92,139 @@ impl Geometry {
             }
         }
     }
+
+    /// G74 cancels the position presets of its axes, without axes those of all (207101835); 20137 (250902411).
+    pub(super) fn home(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+        couplings: &Couplings,
+    ) -> Outcome<()> {
+        if !couplings.are_off() {
+            let text = "G74 while a coupling group is switched on";
+            return Err(Fault::new(Condition::HomingWithCouplings, text, g.span));
+        }
+        // Assumption: 252647563 prints no limits; these are those of other orders (UNS16)
+        if let Some((_, order, at)) =
+            words.axes.iter().find(|(_, order, _)| whole(*order, 0, u32::from(u16::MAX)).is_none())
+        {
+            let text = format!("G74: the order {order} is not a whole number from 0 to 65535");
+            return Err(Fault::new(Condition::HomingOrder, text, *at)
+                .with(|d| d.value(ValueKind::Wrong, *order, "-")));
+        }
+        // page 208164107
+        if let Some(m) = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19 | 40..=45)) {
+            let text = format!("M{:02} in the block of G74", m.number);
+            return Err(Fault::new(Condition::SpindleCommandsExclude, text, m.span)
+                .hint("write the function of the spindle in a separate block"));
+        }
+        let named = |axis: usize| words.axes.iter().any(|(other, _, _)| *other == axis);
+        for axis in 0..self.coordinates.target().len() {
+            if words.axes.is_empty() || named(axis) {
+                self.coordinates.preset_position(axis, None);
+            }
+        }
+        Ok(())
+    }
+
+    /// G92: absolute with G90, incremental with G91.
+    fn preset(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+        machine: &Machine,
+        modal: &Modal,
+    ) -> Outcome<()> {
+        needs_axes(g, words)?;
+        for (axis, value, _) in &words.axes {
+            let value_mm = value * modal.axis_unit(&machine.axes[*axis]);
+            let before = if modal.absolute { 0.0 } else { self.coordinates.preset(*axis) };
+            self.coordinates.set_preset(*axis, before + value_mm);
+        }
+        Ok(())
+    }
+
+    fn rotate(
+        &mut self,
+        g: &GWord,
+        words: &Words<'_>,
+        machine: &Machine,
+        modal: &Modal,
+        names: &AxisNames,
+    ) -> Outcome<()> {
+        let main = modal.plane.main_axes();
+        let mut centre: [Option<f64>; 2] = [None; 2];
+        for (axis, value, span) in &words.axes {
+            match self.coordinates.main_index(*axis) {
+                Some(m) if m == main[0] => {
+                    centre[0] = Some(value * modal.axis_unit(&machine.axes[*axis]));
+                }
+                Some(m) if m == main[1] => {
+                    centre[1] = Some(value * modal.axis_unit(&machine.axes[*axis]));
+                }
+                _ => {
+                    let name = names.name(*axis).to_owned();
+                    let text = format!("axis {name} is not in the plane of the rotation");
+                    let number = machine.axes[*axis].number();
+                    return Err(Fault::new(Condition::RotationAxis, text, *span)
+                        .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
+                }
+            }
+        }
+        let deg = words.radius.map_or(0.0, |(deg, _)| deg);
+        let plane = [main[0], main[1]];
+        self.rotate_plane(machine, plane, deg, centre, g.span)
+    }
+
+    /// Other software limits of an axis from here on, for set positions and, with the next step, for actual ones.
+    pub(in crate::exec) fn limit_axis(
+        &mut self,
+        axis: usize,
+        limits_mm: Option<(f64, f64)>,
+        contour: &mut Contour,
+    ) {
+        self.limits_mm[axis] = limits_mm;
+        contour.event(Event::SoftwareLimits { axis, limits_mm });
+    }
+
+    /// P-CHAN-00100 = 1: axes whose tool offset a D word changes move in its block, as if their coordinate were programmed absolutely.
+    ///
+    /// Source: TF5200 channel parameters 149123467. Assumption: an axis with its own word in the block follows that; arcs, threads
+    /// and functions that take the axis words are refused.
+    pub(super) fn tool_moves(
+        &self,
+        before: &AxisVec,
+        words: &mut Words<'_>,
+        takes_axes: Option<GWord>,
+        machine: &Machine,
+        modal: &Modal,
+    ) -> Outcome<()> {
+        let with_tool = words.tool.filter(|_| machine.channel.offsets.tool_data_with_tool);
+        let Some((_, span)) = words.tool_data.or(with_tool) else { return Ok(()) };
+        let now = self.coordinates.tool();
+        let changed = (0..now.len()).filter(|axis| now[*axis].to_bits() != before[*axis].to_bits());
+        let moved: Vec<usize> = changed
+            .filter(|axis| words.axes.iter().all(|(programmed, _, _)| programmed != axis))
+            .collect();
+        if moved.is_empty() {
+            return Ok(());
+        }
+        let straight = matches!(modal.path_mode(words), PathMode::Rapid | PathMode::Linear);
+        if takes_axes.is_some() || !straight {
+            let what = "D with offsets moved at once (P-CHAN-00100) in a block other than a straight motion";
+            return Err(Fault::unsupported(what, span));
+        }
+        if words.dimensions.is_empty() {
+            words.dimensions.push((0, modal.absolute));
+        }
+        words.dimensions.push((words.axes.len(), true));
+        for axis in moved {
+            let value = self.coordinates.programmed(axis)
+                / self.coordinate_unit(axis, true, machine, modal);
+            words.axes.push((axis, value, span));
+        }
+        Ok(())
+    }
 }
 
 impl Decoder {
@@ -124,83 +263,23 @@ impl Decoder {
         let Some(g) = takes_axes else { return };
         let outcome = match g.row.act {
             Act::ZeroGroupAxes => self.geometry.zero_group_of_axes(&g, words),
-            Act::Preset => self.preset(&g, words),
+            Act::Preset => self.geometry.preset(&g, words, &self.machine, &self.modal),
             Act::MirrorAxes => {
                 words.must_be_alone(&g, &mut self.report);
                 self.geometry.mirror_axes(&g, words)
             }
-            Act::Rotate => self.rotate(&g, words),
+            Act::Rotate => self.geometry.rotate(&g, words, &self.machine, &self.modal, &self.names),
             Act::SoftwareLimits(positive) => self.software_limits(&g, words, positive),
-            Act::MeasuringOffsets(takes_in) => self.measuring_offsets(takes_in, &g, words),
+            Act::MeasuringOffsets(takes_in) => self.geometry.measuring_offsets(
+                takes_in,
+                &g,
+                words,
+                &self.motion.measuring,
+                &self.names,
+            ),
             _ => Ok(()),
         };
         self.report.keep(outcome);
-    }
-
-    /// P-CHAN-00100 = 1: axes whose tool offset a D word changes move in its block, as if their coordinate were programmed absolutely.
-    ///
-    /// Source: TF5200 channel parameters 149123467. Assumption: an axis with its own word in the block follows that; arcs, threads
-    /// and functions that take the axis words are refused.
-    pub(super) fn tool_moves(
-        &mut self,
-        before: &AxisVec,
-        words: &mut Words<'_>,
-        takes_axes: Option<GWord>,
-    ) {
-        let with_tool = words.tool.filter(|_| self.machine.channel.offsets.tool_data_with_tool);
-        let Some((_, span)) = words.tool_data.or(with_tool) else { return };
-        let now = self.geometry.coordinates.tool();
-        let changed = (0..now.len()).filter(|axis| now[*axis].to_bits() != before[*axis].to_bits());
-        let moved: Vec<usize> = changed
-            .filter(|axis| words.axes.iter().all(|(programmed, _, _)| programmed != axis))
-            .collect();
-        if moved.is_empty() {
-            return;
-        }
-        let straight = matches!(self.modal.path_mode(words), PathMode::Rapid | PathMode::Linear);
-        if takes_axes.is_some() || !straight {
-            let what = "D with offsets moved at once (P-CHAN-00100) in a block other than a straight motion";
-            self.report.note(Fault::unsupported(what, span));
-            return;
-        }
-        if words.dimensions.is_empty() {
-            words.dimensions.push((0, self.modal.absolute));
-        }
-        words.dimensions.push((words.axes.len(), true));
-        for axis in moved {
-            let value =
-                self.geometry.coordinates.programmed(axis) / self.coordinate_unit(axis, true);
-            words.axes.push((axis, value, span));
-        }
-    }
-
-    /// G74 cancels the position presets of its axes, without axes those of all (207101835); 20137 (250902411).
-    pub(super) fn home(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        if !self.motion.couplings.are_off() {
-            let text = "G74 while a coupling group is switched on";
-            return Err(Fault::new(Condition::HomingWithCouplings, text, g.span));
-        }
-        // Assumption: 252647563 prints no limits; these are those of other orders (UNS16)
-        if let Some((_, order, at)) =
-            words.axes.iter().find(|(_, order, _)| whole(*order, 0, u32::from(u16::MAX)).is_none())
-        {
-            let text = format!("G74: the order {order} is not a whole number from 0 to 65535");
-            return Err(Fault::new(Condition::HomingOrder, text, *at)
-                .with(|d| d.value(ValueKind::Wrong, *order, "-")));
-        }
-        // page 208164107
-        if let Some(m) = words.m.iter().find(|m| matches!(m.number, 3..=5 | 19 | 40..=45)) {
-            let text = format!("M{:02} in the block of G74", m.number);
-            return Err(Fault::new(Condition::SpindleCommandsExclude, text, m.span)
-                .hint("write the function of the spindle in a separate block"));
-        }
-        let named = |axis: usize| words.axes.iter().any(|(other, _, _)| *other == axis);
-        for axis in 0..self.machine.axes.len() {
-            if words.axes.is_empty() || named(axis) {
-                self.geometry.coordinates.preset_position(axis, None);
-            }
-        }
-        Ok(())
     }
 
     /// G98, G99: active until the end of the program.
@@ -271,45 +350,8 @@ impl Decoder {
             };
             return Err(Fault::new(condition, text, span));
         }
-        self.limit_axis(axis, Some((low, high)));
+        self.geometry.limit_axis(axis, Some((low, high)), &mut self.contour);
         Ok(())
-    }
-
-    /// G92: absolute with G90, incremental with G91.
-    fn preset(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        needs_axes(g, words)?;
-        for (axis, value, _) in &words.axes {
-            let value_mm = value * self.modal.axis_unit(&self.machine.axes[*axis]);
-            let before =
-                if self.modal.absolute { 0.0 } else { self.geometry.coordinates.preset(*axis) };
-            self.geometry.coordinates.set_preset(*axis, before + value_mm);
-        }
-        Ok(())
-    }
-
-    fn rotate(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
-        let main = self.modal.plane.main_axes();
-        let mut centre: [Option<f64>; 2] = [None; 2];
-        for (axis, value, span) in &words.axes {
-            match self.geometry.coordinates.main_index(*axis) {
-                Some(m) if m == main[0] => {
-                    centre[0] = Some(value * self.modal.axis_unit(&self.machine.axes[*axis]));
-                }
-                Some(m) if m == main[1] => {
-                    centre[1] = Some(value * self.modal.axis_unit(&self.machine.axes[*axis]));
-                }
-                _ => {
-                    let name = self.names.name(*axis).to_owned();
-                    let text = format!("axis {name} is not in the plane of the rotation");
-                    let number = self.machine.axes[*axis].number();
-                    return Err(Fault::new(Condition::RotationAxis, text, *span)
-                        .with(|d| d.axis(number, name).value(ValueKind::AxisNumber, number, "-")));
-                }
-            }
-        }
-        let deg = words.radius.map_or(0.0, |(deg, _)| deg);
-        let plane = [main[0], main[1]];
-        self.geometry.rotate_plane(&self.machine, plane, deg, centre, g.span)
     }
 }
 

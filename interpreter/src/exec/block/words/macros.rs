@@ -1,7 +1,6 @@
 //! Macros: definitions take effect while the words of a block are collected.
 
 use crate::diag::{Condition, ValueKind};
-use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::program::state::Calls;
 use crate::exec::report::Report;
@@ -10,14 +9,20 @@ use crate::machine::table::channel as of;
 use crate::suggest;
 use crate::syntax::ast::{MacroDefinition, Span};
 
-impl Decoder {
+impl Calls {
     /// `"NAME" = "NC code"`.
-    pub(super) fn define_macro(&mut self, definition: &MacroDefinition, span: Span) -> Outcome<()> {
+    pub(super) fn define_macro(
+        &mut self,
+        definition: &MacroDefinition,
+        channel: &Channel,
+        report: &mut Report,
+        span: Span,
+    ) -> Outcome<()> {
         let name = definition.name.trim_ascii();
-        macro_fits(&self.machine.channel, name, &definition.text, span, &mut self.report)?;
-        let before = self.calls.macros.insert(name.into(), definition.text.clone());
+        macro_fits(channel, name, &definition.text, span, report)?;
+        let before = self.macros.insert(name.into(), definition.text.clone());
         // blocks that contain the earlier text must be parsed again
-        self.calls.macros_changed |= before.as_ref() != Some(&definition.text);
+        self.macros_changed |= before.as_ref() != Some(&definition.text);
         Ok(())
     }
 }

@@ -5,9 +5,12 @@ use crate::exec::block::choice::PathMode;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::motion::spindles::Turning;
+use crate::exec::motion::state::MotionState;
+use crate::exec::output::output;
 use crate::exec::report::Subject;
+use crate::exec::shaping::ShapingState;
 use crate::exec::step::{Event, SpindleState, Sync};
-use crate::machine::Axis;
+use crate::machine::{Axis, Machine};
 use crate::syntax::ast::Span;
 use kontur_filters::kernel::Kernel;
 use kontur_motion::block::Feed;
@@ -16,6 +19,50 @@ use std::sync::Arc;
 
 /// Highest speed in rev/min.
 const SPEED_MAX: f64 = 1e6;
+
+impl MotionState {
+    /// Differences that keep an axis and its spindle from being at the same point of the thread: filters, following error.
+    fn apart_from_spindle(
+        &self,
+        path: &Path,
+        feed_mm_s: f64,
+        rpm: f64,
+        machine: &Machine,
+        shaping: &ShapingState,
+    ) -> Option<String> {
+        let main = &self.spindles[0];
+        let spindle = main.index?;
+        let (cycle, turning) = (machine.cycle, &machine.spindles[spindle]);
+        let of_spindle = shaping.setup.spindles.get(spindle)?.kernel.as_deref();
+        let ms = |kernel: Option<&Kernel>, axis: &Axis| {
+            let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
+            (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
+        };
+        let spindle_lag_s = turning.lag_s(6.0 * rpm, main.feedforward, main.weight_ratio);
+        let feedforward = &self.feedforward;
+        let way_mm = |i: usize| path.end()[i] - path.start()[i];
+        (0..machine.axes.len()).filter(|i| way_mm(*i).abs() > 0.0).find_map(|i| {
+            let axis = &machine.axes[i];
+            let kernel = shaping.setup.axes[i].kernel.as_deref();
+            let [own, of_other] = [ms(kernel, axis), ms(of_spindle, turning)];
+            let (name, other) = (axis.name(), turning.name());
+            if kernel != of_spindle || (own - of_other).abs() > 1e-6 {
+                return Some(format!(
+                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not synchronous in the thread"
+                ));
+            }
+            let speed_mm_s = feed_mm_s * way_mm(i) / path.length();
+            let lag_s = axis.lag_s(speed_mm_s, feedforward.on, feedforward.weight_ratios[i]);
+            ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
+                format!(
+                    "tapping while {name} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",
+                    1e3 * lag_s,
+                    1e3 * spindle_lag_s
+                )
+            })
+        })
+    }
+}
 
 impl Decoder {
     pub(super) fn tap(&mut self, path: Path, full_override: bool, span: Span) -> Outcome<()> {
@@ -41,11 +88,17 @@ impl Decoder {
         vector.acc_mm_s2 = least(vector.acc_mm_s2, slope.acc_mm_s2 * ratio);
         vector.dec_mm_s2 = least(vector.dec_mm_s2, slope.dec_mm_s2 * ratio);
         let block = self.thread_block(path, feed_mm_s, Arc::new(dynamics), full_override);
-        let plane = self.in_plane(span)?;
+        let plane = self.geometry.in_plane(&self.modal, &self.motion, span)?;
         if self.report.failed() && !self.checking {
             return Ok(());
         }
-        if let Some(text) = self.apart_from_spindle(&block.path, spindle, feed_mm_s, rpm) {
+        if let Some(text) = self.motion.apart_from_spindle(
+            &block.path,
+            feed_mm_s,
+            rpm,
+            &self.machine,
+            &self.shaping,
+        ) {
             self.report.note_once(Subject::Only, Fault::new(Condition::UnequalKernels, text, span));
         }
         // the tool is not driven into its thread in a curve
@@ -64,46 +117,6 @@ impl Decoder {
         Ok(())
     }
 
-    /// Differences that keep an axis and its spindle from being at the same point of the thread: filters, following error.
-    fn apart_from_spindle(
-        &self,
-        path: &Path,
-        spindle: usize,
-        feed_mm_s: f64,
-        rpm: f64,
-    ) -> Option<String> {
-        let (cycle, turning) = (self.machine.cycle, &self.machine.spindles[spindle]);
-        let of_spindle = self.shaping.setup.spindles.get(spindle)?.kernel.as_deref();
-        let ms = |kernel: Option<&Kernel>, axis: &Axis| {
-            let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
-            (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
-        };
-        let main = &self.motion.spindles[0];
-        let spindle_lag_s = turning.lag_s(6.0 * rpm, main.feedforward, main.weight_ratio);
-        let feedforward = &self.motion.feedforward;
-        let way_mm = |i: usize| path.end()[i] - path.start()[i];
-        (0..self.machine.axes.len()).filter(|i| way_mm(*i).abs() > 0.0).find_map(|i| {
-            let axis = &self.machine.axes[i];
-            let kernel = self.shaping.setup.axes[i].kernel.as_deref();
-            let [own, of_other] = [ms(kernel, axis), ms(of_spindle, turning)];
-            let (name, other) = (axis.name(), turning.name());
-            if kernel != of_spindle || (own - of_other).abs() > 1e-6 {
-                return Some(format!(
-                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not synchronous in the thread"
-                ));
-            }
-            let speed_mm_s = feed_mm_s * way_mm(i) / path.length();
-            let lag_s = axis.lag_s(speed_mm_s, feedforward.on, feedforward.weight_ratios[i]);
-            ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
-                format!(
-                    "tapping while {name} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",
-                    1e3 * lag_s,
-                    1e3 * spindle_lag_s
-                )
-            })
-        })
-    }
-
     /// The coupling of the spindle to the path, and the path velocity.
     fn tapping(&mut self, path: &Path, rpm: f64, span: Span) -> Outcome<(Coupling, f64)> {
         let way = |axis: usize| path.end()[axis] - path.start()[axis];
@@ -111,7 +124,14 @@ impl Decoder {
             (0..path.start().len()).max_by(|a, b| way(*a).abs().total_cmp(&way(*b).abs()));
         let longest = longest.unwrap_or(0);
         let (deg_per_path_mm, sense, feed_mm_s) = if self.modal.path == PathMode::Tapping {
-            let Feed::PathVelocity(feed_mm_s) = self.feed_of(path, span)? else {
+            let Feed::PathVelocity(feed_mm_s) = self.motion.feed_of(
+                path,
+                &self.geometry.coordinates,
+                &self.modal,
+                output!(self),
+                span,
+            )?
+            else {
                 return Err(Fault::unsupported("tapping without G94", span));
             };
             (rpm.abs() * 6.0 / feed_mm_s, rpm.signum(), feed_mm_s)

@@ -21,6 +21,17 @@ use kontur_motion::queue::Queued;
 /// Fraction of the thread speed that must be reached: all of it, except for rounding.
 const SHORT: f64 = 1.0 - 1e-6;
 
+/// A block of G33.
+struct Cut<'a> {
+    block: &'a Block,
+    /// Speed of the spindle in rev/min.
+    rpm: f64,
+    pitch_mm: f64,
+    /// Place of its start angle.
+    offset: Option<Span>,
+    span: Span,
+}
+
 impl Threads {
     /// Whether a block begins where the last one of a chain has ended.
     fn continues(&self, block: &Block) -> bool {
@@ -29,6 +40,66 @@ impl Threads {
             last.path.end().iter().zip(starts.iter()).all(|(a, b)| a.to_bits() == b.to_bits())
         };
         self.turning.chain && self.last.as_deref().is_some_and(same)
+    }
+
+    /// A block of the chain that is being cut, or the first of the next one; `unit_mm`: unit of the pitch.
+    fn join(
+        &mut self,
+        cut: &Cut<'_>,
+        cycle: CycleTime,
+        unit_mm: f64,
+        report: &mut Report,
+    ) -> Outcome<()> {
+        if self.cutting {
+            self.continue_chain(cut, cycle, unit_mm, report)?;
+        } else if self.continues(cut.block) {
+            let text = "the path has stopped within the chain: this block waits for the mark of the spindle like a new thread";
+            let hint = "move G04, G60 and commands that stop the path out of the chain";
+            report.note(Fault::new(Condition::ThreadBroken, text, cut.span).hint(hint));
+        }
+        self.last = self.turning.chain.then(|| Box::new(cut.block.clone()));
+        self.rpm = cut.rpm;
+        self.cut_mm = cut.pitch_mm;
+        Ok(())
+    }
+
+    /// A further block of a chain of threads.
+    ///
+    /// Assumption: at a corner and where the pitch changes, which the printed chain does (1212537739), the path slows down as
+    /// between other blocks; the pitch of these stretches is reported as not kept.
+    fn continue_chain(
+        &self,
+        cut: &Cut<'_>,
+        cycle: CycleTime,
+        unit_mm: f64,
+        report: &mut Report,
+    ) -> Outcome<()> {
+        if cut.rpm.to_bits() != self.rpm.to_bits() {
+            let what = "a chain of threads in which the spindle speed changes";
+            return Err(Fault::unsupported(what, cut.span));
+        }
+        if let Some(at) = cut.offset {
+            let what = "a start angle (OFFSET) within a chain of threads";
+            return Err(Fault::unsupported(what, at)
+                .hint("the chain starts at the angle of its first block; end it with G00 or #TURN [THREAD_CHAIN=0]"));
+        }
+        let slows = |last: &Block| slows_between(last, cut.block, cycle);
+        let text = if self.last.as_deref().is_some_and(slows) {
+            "the thread changes its direction: the path slows down at the corner, the pitch differs there".to_owned()
+        } else if (self.cut_mm - cut.pitch_mm).abs() > PITCH_ROUNDING_MM {
+            format!(
+                "the pitch changes from {} to {} within the chain: it differs until the path has its new speed",
+                rounded(self.cut_mm / unit_mm),
+                rounded(cut.pitch_mm / unit_mm)
+            )
+        } else {
+            return Ok(());
+        };
+        let fault = Fault::new(Condition::ThreadBroken, text, cut.span);
+        report.note(
+            fault.hint("the ramps of both speeds take part of the thread: leave a run-out there"),
+        );
+        Ok(())
     }
 }
 
@@ -58,7 +129,7 @@ impl Decoder {
         if !modes.chain {
             thread_is_long_enough(&block, feed_mm_s, self.machine.cycle, (&mut self.report, span));
         }
-        let plane = self.in_plane(span)?;
+        let plane = self.geometry.in_plane(&self.modal, &self.motion, span)?;
         if self.report.failed() && !self.checking {
             return Ok(());
         }
@@ -66,7 +137,15 @@ impl Decoder {
         if let Some((_, deg, at)) = offset {
             offset_fits(&self.machine.spindles[index], *deg, *at)?;
         }
-        self.joins_chain(&block, pitch_mm, offset.map(|(_, _, at)| *at), span)?;
+        let cut = Cut {
+            block: &block,
+            rpm: self.motion.spindles[0].rpm,
+            pitch_mm,
+            offset: offset.map(|(_, _, at)| *at),
+            span,
+        };
+        let unit_mm = self.modal.unit_mm();
+        self.motion.threads.join(&cut, self.machine.cycle, unit_mm, &mut self.report)?;
         if !self.motion.threads.cutting {
             let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
             let state = SpindleState::Mark { deg, full_override: block.full_override };
@@ -75,74 +154,6 @@ impl Decoder {
             self.motion.threads.cutting = true;
         }
         self.send(block, plane, None, span);
-        Ok(())
-    }
-
-    /// A block of the chain that is being cut, or the first of the next one; `offset` is the place of its start angle.
-    fn joins_chain(
-        &mut self,
-        block: &Block,
-        pitch_mm: f64,
-        offset: Option<Span>,
-        span: Span,
-    ) -> Outcome<()> {
-        let rpm = self.motion.spindles[0].rpm;
-        if self.motion.threads.cutting {
-            self.chain_fits(block, rpm, pitch_mm, offset, span)?;
-        } else if self.motion.threads.continues(block) {
-            let text = "the path has stopped within the chain: this block waits for the mark of the spindle like a new thread";
-            let hint = "move G04, G60 and commands that stop the path out of the chain";
-            self.report.note(Fault::new(Condition::ThreadBroken, text, span).hint(hint));
-        }
-        let threads = &mut self.motion.threads;
-        threads.last = threads.turning.chain.then(|| Box::new(block.clone()));
-        threads.rpm = rpm;
-        threads.cut_mm = pitch_mm;
-        Ok(())
-    }
-
-    /// A further block of a chain of threads, with the place of its start angle.
-    ///
-    /// Assumption: at a corner and where the pitch changes, which the printed chain does (1212537739), the path slows down as
-    /// between other blocks; the pitch of these stretches is reported as not kept.
-    fn chain_fits(
-        &mut self,
-        block: &Block,
-        rpm: f64,
-        pitch_mm: f64,
-        offset: Option<Span>,
-        span: Span,
-    ) -> Outcome<()> {
-        let before = &self.motion.threads;
-        if rpm.to_bits() != before.rpm.to_bits() {
-            let what = "a chain of threads in which the spindle speed changes";
-            return Err(Fault::unsupported(what, span));
-        }
-        if let Some(at) = offset {
-            let what = "a start angle (OFFSET) within a chain of threads";
-            return Err(Fault::unsupported(what, at)
-                .hint("the chain starts at the angle of its first block; end it with G00 or #TURN [THREAD_CHAIN=0]"));
-        }
-        let text = if before
-            .last
-            .as_deref()
-            .is_some_and(|last| slows_between(last, block, self.machine.cycle))
-        {
-            "the thread changes its direction: the path slows down at the corner, the pitch differs there".to_owned()
-        } else if (before.cut_mm - pitch_mm).abs() > PITCH_ROUNDING_MM {
-            let unit = self.modal.unit_mm();
-            format!(
-                "the pitch changes from {} to {} within the chain: it differs until the path has its new speed",
-                rounded(before.cut_mm / unit),
-                rounded(pitch_mm / unit)
-            )
-        } else {
-            return Ok(());
-        };
-        let fault = Fault::new(Condition::ThreadBroken, text, span);
-        self.report.note(
-            fault.hint("the ramps of both speeds take part of the thread: leave a run-out there"),
-        );
         Ok(())
     }
 }

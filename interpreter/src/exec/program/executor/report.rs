@@ -2,7 +2,7 @@
 
 use super::{Executor, State};
 use crate::diag::{Condition, Diagnostic, Location};
-use crate::exec::contour::Contour;
+use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::step::{EndReason, SourceRef};
 use crate::source::Position;
@@ -87,10 +87,10 @@ impl Executor {
         let aborted =
             reason == EndReason::Aborted || (self.found.errors() > 0 && !self.decoder.checking);
         self.reason = if aborted { EndReason::Aborted } else { EndReason::Finished };
-        let source = self.decoder.report.source;
-        let contour: &mut Contour = &mut self.decoder.contour;
-        let mut faults = contour.end(self.reason, source);
-        faults.extend(self.decoder.limits_of_compensated());
+        let Decoder { contour, report, geometry, motion, names, machine, .. } = &mut self.decoder;
+        let mut faults = contour.end(self.reason, report.source);
+        let limits = geometry.limits(motion, names, machine);
+        faults.extend(contour.take_outside(&limits));
         for fault in faults {
             let diagnostic = self.placed(fault);
             self.report(diagnostic);

@@ -6,6 +6,7 @@ use super::budget::Verdict;
 use super::{Executor, State, file_number};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::din::{After, CallAfter, Then};
+use crate::exec::decoder::Decoder;
 use crate::exec::fault::Fault;
 use crate::exec::motion::straight::StraightWords;
 use crate::exec::program::files::{Fetched, Parsed, Reading, Tree};
@@ -115,7 +116,8 @@ impl Executor {
     fn names_or_macros_changed(&mut self) -> bool {
         let names = self.decoder.names.take_changed();
         if names {
-            let names = self.decoder.long_names();
+            let Decoder { names, motion, machine, .. } = &self.decoder;
+            let names = names.long_names(motion.spindle_names(&machine.channel));
             self.parser = Parser::new(names.iter().map(String::as_str));
         }
         std::mem::take(&mut self.decoder.calls.macros_changed) || names
@@ -239,11 +241,8 @@ impl Executor {
             .map_or(self.decoder.report.source.file, |level| file_number(level.file));
         let source = SourceRef { file, line: at.line, offset: at.offset, block: None };
         self.decoder.report.source = source;
-        let faults = self.decoder.stop_contour(wait);
         self.position = at;
-        for fault in faults {
-            self.decoder.report.note(Box::new(fault));
-        }
+        self.decoder.contour.stop(wait, &mut self.decoder.report);
         self.settle(false);
     }
 

@@ -68,7 +68,7 @@ pub(in crate::exec) fn write(
         ["G", "WZ_AKT", "WEAR_CONST"] => {
             d.geometry.tools.active.wear_ratio = x()? * WEAR_UNIT;
             if d.motion.wear.on {
-                d.apply_wear(span)?;
+                d.motion.apply_wear(&d.geometry, &d.modal, &mut d.contour, span)?;
             }
         }
         // spindles have no M functions free for other purposes here (P-CHAN-00098)

@@ -1,6 +1,7 @@
 //! Commands of control flow and of the program structure, inside the loop over blocks.
 
 use crate::diag::Condition;
+use crate::exec::commands;
 use crate::exec::fault::Fault;
 use crate::exec::program::executor::Executor;
 use crate::exec::program::index::EntryId;
@@ -41,7 +42,7 @@ impl Executor {
             self.decoder.report.note(fault);
             return;
         }
-        let outcome = self.decoder.execute_command(command);
+        let outcome = commands::execute(&mut self.decoder, command);
         self.decoder.report.keep(outcome);
     }
 

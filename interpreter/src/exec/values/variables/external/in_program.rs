@@ -2,6 +2,7 @@
 
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::block::choice::Compensation;
+use crate::exec::contour::note_lost_corner;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::External;
@@ -99,7 +100,7 @@ impl Decoder {
     pub(in crate::exec) fn flush_for_external(&mut self, read: Span) -> Outcome<()> {
         let active = if self.modal.compensation != Compensation::Off {
             Some(("tool radius compensation is", "G40"))
-        } else if self.is_contouring() {
+        } else if self.motion.is_contouring(&self.modal, &self.contour) {
             Some(("contouring is", "G260"))
         } else if self.contour.hsc.on {
             Some(("#HSC is", "#HSC OFF"))
@@ -124,7 +125,7 @@ impl Decoder {
         }
         self.motion.contour_line.may_flush("external variable read", read)?;
         if self.contour.has_contoured_corner() {
-            self.note_lost_corner();
+            note_lost_corner(&mut self.report);
         }
         self.sync(Sync::FlushWait);
         Ok(())
