@@ -42,7 +42,7 @@ mod rounding;
 use crate::block::{Block, ChannelDynamics, ContourMode, ContourSettings, Feed};
 use crate::path::Path;
 use crate::tolerance::Kernels;
-use crate::worth::{Monitored, Part, Passage};
+use crate::worth::{Monitored, OnlyPlanned, Part, Passage};
 use kontur_filters::time::CycleTime;
 use parts::Parts;
 pub(crate) use rounding::NEEDLE_RAD;
@@ -229,10 +229,10 @@ impl Contouring {
         // an interim point and an end speed are programmed explicitly
         let demanded = matches!(settings.mode, ContourMode::Pos { .. })
             || held.block.end_velocity_mm_s.is_some();
-        let around = [&held.block, block];
-        let known = Monitored::between(around, kernels, self.cycle).filter(|_| !demanded);
-        // otherwise only the planner knows the speed of the sharp corner under AX_DEV
-        let Some(monitored) = known else { return Ok(Some((curve, parts))) };
+        let monitored = match Monitored::between([&held.block, block], kernels, self.cycle) {
+            Ok(monitored) if !demanded => monitored,
+            Ok(_) | Err(OnlyPlanned) => return Ok(Some((curve, parts))),
+        };
         let passage = Passage {
             from: &held.block,
             bridged: &self.skipped,

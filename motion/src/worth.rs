@@ -16,8 +16,8 @@ use crate::limits::{PathExtremes, PathSpeeds, SlopeTable};
 use crate::path::PolyPath;
 use crate::profile::SlopeLimits;
 use kontur_filters::time::CycleTime;
-pub(crate) use monitored::Monitored;
 use monitored::Passing;
+pub(crate) use monitored::{Monitored, OnlyPlanned};
 
 /// Relative rounding error allowed when times are compared.
 const SLACK: f64 = 1e-9;

@@ -70,7 +70,7 @@ impl Splining {
         kernels: &'a Kernels,
     ) -> Option<Passage<'a>> {
         let cycle = self.cycle;
-        let monitored = Monitored::between([from, to], kernels, cycle)?;
+        let monitored = Monitored::between([from, to], kernels, cycle).ok()?;
         let kernel_active = kernels.any();
         Some(Passage { from, bridged: &[], to, cycle, kernel_active, monitored })
     }

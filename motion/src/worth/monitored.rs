@@ -38,6 +38,10 @@ pub(crate) struct Monitored<'a> {
     tolerance_mm: f64,
 }
 
+/// The speed at the corner is only known to the planner.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnlyPlanned;
+
 /// How a sharp corner is passed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Passing {
@@ -80,17 +84,21 @@ impl Departure {
 }
 
 impl<'a> Monitored<'a> {
-    /// The tolerance at the corner between two blocks, if one applies; `None` if the speed at the corner is only known to
-    /// the planner.
+    /// The tolerance at the corner between two blocks, if one applies.
+    ///
+    /// # Errors
+    /// [`OnlyPlanned`] if the filters differ between the axes or overshoot.
     pub(crate) fn between(
         blocks: [&Block; 2],
         kernels: &'a Kernels,
         cycle: CycleTime,
-    ) -> Option<Option<Self>> {
+    ) -> Result<Option<Self>, OnlyPlanned> {
         let tolerances = blocks.into_iter().filter_map(|b| b.tolerance.ax_dev_mm);
         match tolerances.reduce(f64::min).filter(|_| kernels.any()) {
-            Some(tolerance_mm) => Some(Some(Self::new(kernels, cycle, tolerance_mm)?)),
-            None => Some(None),
+            Some(tolerance_mm) => {
+                Self::new(kernels, cycle, tolerance_mm).map(Some).ok_or(OnlyPlanned)
+            }
+            None => Ok(None),
         }
     }
 

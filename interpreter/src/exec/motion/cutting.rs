@@ -110,6 +110,10 @@ impl MotionState {
         match g.map(|g| (g.row.act, g.span)) {
             Some((Act::CuttingSpeedMax, span)) => match speed {
                 Some((_, rpm, _)) if rpm > 0.0 && rpm <= 1e6 => {
+                    if self.cutting.speed.is_some() {
+                        let text = "G196 while G96 is active: the spindle keeps its limit until the next S of G96";
+                        output.report.note(Fault::new(Condition::CuttingSpeedMaxLate, text, span));
+                    }
                     self.cutting.rpm_max = Some(rpm);
                     Ok(())
                 }

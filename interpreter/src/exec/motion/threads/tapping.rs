@@ -21,6 +21,29 @@ use std::sync::Arc;
 const SPEED_MAX: f64 = 1e6;
 
 impl MotionState {
+    /// The delays in ms by the filters of an axis and of the main spindle; the axis is the first one of a path whose filters are
+    /// not those of the spindle.
+    fn shaped_apart(
+        &self,
+        path: &Path,
+        machine: &Machine,
+        shaping: &ShapingState,
+    ) -> Option<(usize, [f64; 2])> {
+        let spindle = self.spindles[0].index?;
+        let (cycle, turning) = (machine.cycle, &machine.spindles[spindle]);
+        let of_spindle = shaping.setup.spindles.get(spindle)?.kernel.as_deref();
+        let ms = |kernel: Option<&Kernel>, axis: &Axis| {
+            let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
+            (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
+        };
+        moving(path).find_map(|i| {
+            let kernel = shaping.setup.axes[i].kernel.as_deref();
+            let delays_ms = [ms(kernel, &machine.axes[i]), ms(of_spindle, turning)];
+            let apart = kernel != of_spindle || (delays_ms[0] - delays_ms[1]).abs() > 1e-6;
+            apart.then_some((i, delays_ms))
+        })
+    }
+
     /// Differences that keep an axis and its spindle from being at the same point of the thread: filters, following error.
     fn apart_from_spindle(
         &self,
@@ -31,37 +54,55 @@ impl MotionState {
         shaping: &ShapingState,
     ) -> Option<String> {
         let main = &self.spindles[0];
-        let spindle = main.index?;
-        let (cycle, turning) = (machine.cycle, &machine.spindles[spindle]);
-        let of_spindle = shaping.setup.spindles.get(spindle)?.kernel.as_deref();
-        let ms = |kernel: Option<&Kernel>, axis: &Axis| {
-            let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
-            (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
-        };
+        let turning = &machine.spindles[main.index?];
+        let other = turning.name();
+        if let Some((i, [own, of_other])) = self.shaped_apart(path, machine, shaping) {
+            let name = machine.axes[i].name();
+            return Some(format!(
+                "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not synchronous in the thread"
+            ));
+        }
         let spindle_lag_s = turning.lag_s(6.0 * rpm, main.feedforward, main.weight_ratio);
         let feedforward = &self.feedforward;
-        let way_mm = |i: usize| path.end()[i] - path.start()[i];
-        (0..machine.axes.len()).filter(|i| way_mm(*i).abs() > 0.0).find_map(|i| {
+        moving(path).find_map(|i| {
             let axis = &machine.axes[i];
-            let kernel = shaping.setup.axes[i].kernel.as_deref();
-            let [own, of_other] = [ms(kernel, axis), ms(of_spindle, turning)];
-            let (name, other) = (axis.name(), turning.name());
-            if kernel != of_spindle || (own - of_other).abs() > 1e-6 {
-                return Some(format!(
-                    "tapping while {name} is shaped with a delay of {own:.3} ms, spindle {other} with {of_other:.3} ms: they are not synchronous in the thread"
-                ));
-            }
-            let speed_mm_s = feed_mm_s * way_mm(i) / path.length();
+            let speed_mm_s = feed_mm_s * (path.end()[i] - path.start()[i]) / path.length();
             let lag_s = axis.lag_s(speed_mm_s, feedforward.on, feedforward.weight_ratios[i]);
             ((lag_s - spindle_lag_s).abs() > 1e-6).then(|| {
                 format!(
-                    "tapping while {name} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",
+                    "tapping while {} lags its set position by {:.3} ms, spindle {other} by {:.3} ms (gain kv, feedforward): they are not synchronous in the thread",
+                    axis.name(),
                     1e3 * lag_s,
                     1e3 * spindle_lag_s
                 )
             })
         })
     }
+
+    /// Delays by which a thread of G33 begins at another angle than the programmed one.
+    pub(super) fn begins_elsewhere(
+        &self,
+        path: &Path,
+        rpm: f64,
+        machine: &Machine,
+        shaping: &ShapingState,
+    ) -> Option<String> {
+        let (i, [own, of_other]) = self.shaped_apart(path, machine, shaping)?;
+        let deg = 6e-3 * (own - of_other) * rpm.abs();
+        (deg.abs() > 1e-6).then(|| {
+            format!(
+                "{} is shaped with a delay of {own:.3} ms, spindle {} with {of_other:.3} ms: the thread begins {deg:.1} deg after its start angle; other passes need the same filters and speed",
+                machine.axes[i].name(),
+                machine.spindles[self.spindles[0].index.unwrap_or(0)].name()
+            )
+        })
+    }
+}
+
+/// The axes that a path moves.
+fn moving(path: &Path) -> impl Iterator<Item = usize> + '_ {
+    let ends = path.start().iter().zip(path.end().iter());
+    ends.enumerate().filter(|(_, (from, to))| (*to - *from).abs() > 0.0).map(|(i, _)| i)
 }
 
 impl Decoder {

@@ -147,6 +147,12 @@ impl Decoder {
         let unit_mm = self.modal.unit_mm();
         self.motion.threads.join(&cut, self.machine.cycle, unit_mm, &mut self.report)?;
         if !self.motion.threads.cutting {
+            let rpm = self.motion.spindles[0].rpm;
+            let text = self.motion.begins_elsewhere(&block.path, rpm, &self.machine, &self.shaping);
+            if let Some(text) = text {
+                let fault = Fault::new(Condition::UnequalKernels, text, span);
+                self.report.note_once(Subject::Only, fault);
+            }
             let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
             let state = SpindleState::Mark { deg, full_override: block.full_override };
             self.contour.continue_along(&block.path);
