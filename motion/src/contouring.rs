@@ -57,6 +57,10 @@ const SKIPPED: usize = 100;
 /// A remainder of a block between two curves that is shorter than this share of the block counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// See [`Passage::corner_share`]. Assumption: where a curve takes more of the filter, the speed that its bends permit is the
+/// safer estimate.
+const AS_CORNER: f64 = 0.5;
+
 /// A block whose start may already be part of a curve.
 #[derive(Debug)]
 struct Held {
@@ -240,6 +244,7 @@ impl Contouring {
             cycle: self.cycle,
             kernel_active: kernels.any(),
             monitored,
+            corner_share: AS_CORNER,
         };
         let bent = passage.monitored.is_some();
         let timed = |(block, v_mm_s): &(Block, f64)| match &block.path {

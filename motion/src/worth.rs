@@ -134,6 +134,8 @@ pub(crate) struct Passage<'a> {
     pub(crate) kernel_active: bool,
     /// `AX_DEV`, if it applies.
     pub(crate) monitored: Option<Monitored<'a>>,
+    /// Share of the filter in which a curve has to pass to count as a corner under `AX_DEV`.
+    pub(crate) corner_share: f64,
 }
 
 impl Passage<'_> {
@@ -158,7 +160,7 @@ impl Passage<'_> {
             if v < Some(most) && !monitored.passes(&sides, parts, turn, off_mm) {
                 return false;
             }
-            let limited = monitored.limited(parts, turn, off_mm);
+            let limited = monitored.limited(parts, turn, off_mm, self.corner_share);
             if limited.iter().zip(parts).any(|(limited, part)| limited.v_mm_s < part.v_mm_s) {
                 held_s = monitored.reach_s();
             }
@@ -171,16 +173,28 @@ impl Passage<'_> {
             return true;
         }
         let v = v.unwrap_or_else(most);
-        let bridged: f64 = self.bridged.iter().map(|b| b.path.length()).sum();
+        let bridged = self.bridged.iter().map(|block| self.bridged_s(block, v));
         let away = sides.iter().map(|side| side.leg(v, side.v_mm_s, side.half_mm).1);
-        let sharp = over_s(bridged, v) + away.sum::<f64>();
+        let sharp = bridged.chain(away).sum::<f64>();
         curve_s(&sides, parts, [pre_mm, post_mm]) + held_s <= sharp * (1.0 + SLACK)
     }
 
-    /// Largest change of a component of the direction at the corner.
+    /// Time in s over a bridged block between corners passed at `v`; where the path stops at them, from rest to rest.
+    fn bridged_s(&self, block: &Block, v: f64) -> f64 {
+        if v > 0.0 {
+            return over_s(block.path.length(), v);
+        }
+        let halves = [true, false].map(|before| Side::of(block, before, self.cycle));
+        halves.iter().map(|half| half.leg(v, half.v_mm_s, half.half_mm).1).sum()
+    }
+
+    /// Largest change of a component of the direction, at a corner to or from a bridged block or over all of them.
     pub(crate) fn turn(&self) -> f64 {
-        let (out, into) = (Ends::of(self.from).tangent_out, Ends::of(self.to).tangent_in);
-        out.iter().zip(into.iter()).map(|(u, w)| (w - u).abs()).fold(0.0, f64::max)
+        let blocks = [self.from].into_iter().chain(self.bridged).chain([self.to]);
+        let ends: Vec<Ends> = blocks.map(Ends::of).collect();
+        let whole = ends.first().into_iter().zip(ends.last());
+        let corners = whole.chain(ends.iter().zip(&ends[1..]));
+        corners.map(|(a, b)| change(&a.tangent_out, &b.tangent_in)).fold(0.0, f64::max)
     }
 
     /// Highest speed at the sharp corner.
@@ -207,7 +221,7 @@ impl Passage<'_> {
         }
         parts.extend(after);
         if let Some(monitored) = &self.monitored {
-            parts = monitored.limited(&parts, self.turn(), 0.0);
+            parts = monitored.limited(&parts, self.turn(), 0.0, self.corner_share);
         }
         dwell_s + curve_s(&sides, &parts, sides.each_ref().map(|side| side.half_mm))
     }
@@ -215,6 +229,11 @@ impl Passage<'_> {
     fn sides(&self) -> [Side; 2] {
         [Side::of(self.from, true, self.cycle), Side::of(self.to, false, self.cycle)]
     }
+}
+
+/// Largest change of a component between two directions.
+fn change(from: &[f64], to: &[f64]) -> f64 {
+    from.iter().zip(to).map(|(u, w)| (w - u).abs()).fold(0.0, f64::max)
 }
 
 /// Time in s for a length at a speed; the path may stop at a point.

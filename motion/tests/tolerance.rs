@@ -217,7 +217,6 @@ fn no_slower_than_the_best_uniform_corner_speed() {
     assert!(compared >= 33, "{compared} of 44 can be kept with a uniform speed");
 }
 
-/// A tolerance just above the deviation of a program without one does not change a bit of the result.
 /// A blend of a line into an arc with a kink of a sixth of a degree, and two arcs at a corner: a larger tolerance never takes
 /// longer, and neighbouring ones take nearly the same time.
 #[test]
@@ -266,6 +265,7 @@ fn arcs_take_no_longer_with_a_larger_tolerance() {
     }
 }
 
+/// A tolerance just above the deviation of a program without one does not change a bit of the result.
 #[test]
 fn a_tolerance_that_is_kept_anyway_changes_nothing() {
     for (name, points) in contours() {

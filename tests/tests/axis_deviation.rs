@@ -53,7 +53,15 @@ fn case(seed: u64) -> Case {
         _ => off_mm = splined(&mut r, &mut w),
     }
     w.put("M30");
-    Case { text: w.text, settings, tolerance_mm, off_mm, reach, blocks: w.blocks }
+    Case {
+        text: w.text,
+        settings,
+        tolerance_mm,
+        off_mm,
+        reach,
+        blocks: w.blocks,
+        corners: w.corners,
+    }
 }
 
 /// Runs the program of a number and judges it; returns the largest deviation of a set point as a share of the tolerance.
@@ -64,6 +72,7 @@ fn holds(n: u64, case: &Case) -> f64 {
     let unkept: Vec<_> =
         run.diagnostics.iter().filter(|d| d.id == Condition::AxDevNotKept).collect();
     assert!(unkept.is_empty(), "{unkept:?}\n{}", about());
+    let case = &case.as_driven(&run);
     let beside = off_contour(&run, case);
     assert!(beside <= case.off_mm + SLACK_MM, "setpoints {beside} mm off the contour\n{}", about());
     let own = largest(&run, |a| a.dev.abs());
@@ -178,7 +187,9 @@ fn something_tiny_in_a_corner_changes_little() {
                 "%P\n#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ={freq_hz:.3} AX_DEV={tolerance_mm}]\nF6000\n{contour}\nM30\n"
             );
             let run = run(&text, &format!("kontur.cycle_time_us={cycle_us}"));
-            assert_eq!(run.diagnostics, [], "{text}");
+            // a tiny curve may be given up for the corner itself
+            let others = run.diagnostics.iter().filter(|d| d.id != Condition::CornerFaster);
+            assert_eq!(others.count(), 0, "{text}");
             (run.records.len(), text)
         });
         // one more corner, which may add a rest as long as the filter

@@ -19,6 +19,9 @@ use crate::worth::{Monitored, Part, Passage};
 /// pieces.
 const GAIN: f64 = 0.01;
 
+/// See [`Passage::corner_share`]. Half of the spline around a corner is nearly straight.
+const AS_CORNER: f64 = 1.0;
+
 impl Splining {
     /// Whether the spline takes no longer than the sharp corner at the start of an edge.
     pub(super) fn is_worth(&self, corner: usize, kernels: &Kernels) -> bool {
@@ -72,7 +75,15 @@ impl Splining {
         let cycle = self.cycle;
         let monitored = Monitored::between([from, to], kernels, cycle).ok()?;
         let kernel_active = kernels.any();
-        Some(Passage { from, bridged: &[], to, cycle, kernel_active, monitored })
+        Some(Passage {
+            from,
+            bridged: &[],
+            to,
+            cycle,
+            kernel_active,
+            monitored,
+            corner_share: AS_CORNER,
+        })
     }
 }
 

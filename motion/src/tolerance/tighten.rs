@@ -29,7 +29,8 @@ const HASTE: f64 = 0.85;
 
 impl View<'_> {
     /// Divides the blocks to blame that bend more in one place than in another, or whose axes with different delays are
-    /// pulled apart more: the speed permitted at the worst place need not limit the whole block.
+    /// pulled apart more, and arcs at both ends, see [`ends_apart`]: the speed permitted at the worst place need not limit the
+    /// whole block.
     pub(super) fn parts(&self, findings: &Findings) -> Vec<(usize, Vec<Arc<Queued>>)> {
         let Self { trial, marks, .. } = self;
         let blamed = marks.iter().filter_map(|mark| {
@@ -195,10 +196,12 @@ fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch>
 }
 
 /// The length in mm at either end of an arc within which the blocks beside it act, if the rest of it is at least as long: a speed
-/// that they require does not limit all of it. `None` for other blocks, and for parts of arcs.
+/// that they require does not limit all of it. `None` for other blocks, for parts of arcs, and where every change of speed takes
+/// full ramp times.
 fn ends_apart(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Option<f64> {
     let is_whole = !queued.goes_on && queued.offset <= 0.0;
-    let is_arc = matches!(queued.block.path, Path::Arc(_) | Path::Tilted(_));
+    let is_arc = matches!(queued.block.path, Path::Arc(_) | Path::Tilted(_))
+        && !queued.block.slope.keeps_ramp_times();
     let v = on_a_bend(trial, queued.bend, tolerance).min(queued.velocity.v_mm_s);
     let reach_mm = v * f64::from(trial.kernels.length()) * trial.cycle.seconds();
     let apart = is_whole && is_arc && !trial.kernels.unequal && 3.0 * reach_mm <= queued.length;

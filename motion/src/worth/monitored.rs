@@ -24,9 +24,6 @@ use kontur_filters::time::CycleTime;
 
 /// Halvings in the search for a time or a speed.
 const HALVINGS: u32 = 12;
-/// Number of times that a curve fits into the filter, from which on it counts as a corner. Assumption: in between, the speed
-/// that its bends permit is the safer estimate.
-const AS_CORNER: f64 = 2.0;
 
 /// A filter that all axes share, and the tolerance in mm at a corner.
 #[derive(Clone, Copy, Debug)]
@@ -155,13 +152,13 @@ impl<'a> Monitored<'a> {
     }
 
     /// The parts of a curve, which comes within `off_mm` of a corner, at speeds that keep the tolerance: as a corner, if the
-    /// filter holds at least [`AS_CORNER`] times as much as the curve takes, or by their bends.
-    pub(super) fn limited(&self, parts: &[Part], turn: f64, off_mm: f64) -> Vec<Part> {
+    /// filter holds all of it, or by their bends; `share`: of the filter, see [`Passage::corner_share`](super::Passage).
+    pub(super) fn limited(&self, parts: &[Part], turn: f64, off_mm: f64, share: f64) -> Vec<Part> {
         let m1_s = self.kernel.m1_cycles() * self.cycle.seconds();
         let as_corner = (self.tolerance_mm + off_mm) / (m1_s * turn);
         let held_s: f64 =
             parts.iter().map(|part| part.length_mm / part.v_mm_s.min(as_corner)).sum();
-        let as_corner = if AS_CORNER * held_s < self.reach_s() { as_corner } else { 0.0 };
+        let as_corner = if held_s < share * self.reach_s() { as_corner } else { 0.0 };
         let of = |part: &Part| {
             let v_mm_s = part.v_mm_s.min(self.on_a_bend(part.bend).max(as_corner));
             Part { v_mm_s, ..*part }

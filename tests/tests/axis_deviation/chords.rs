@@ -101,5 +101,13 @@ pub(crate) fn case(seed: u64) -> Case {
         w.line_to("G01", p);
     }
     w.put("M30");
-    Case { text: w.text, settings, tolerance_mm, off_mm: 0.0, reach, blocks: w.blocks }
+    Case {
+        text: w.text,
+        settings,
+        tolerance_mm,
+        off_mm: 0.0,
+        reach,
+        blocks: w.blocks,
+        corners: w.corners,
+    }
 }

@@ -8,6 +8,7 @@ use kontur_tests::{Run, from_polyline};
 const POINTS: u32 = 12;
 
 /// A program and what the test knows about it.
+#[derive(Clone)]
 pub(crate) struct Case {
     pub(crate) text: String,
     pub(crate) settings: Vec<String>,
@@ -18,9 +19,44 @@ pub(crate) struct Case {
     pub(crate) reach: usize,
     /// Line number and pieces of every block with motion.
     pub(crate) blocks: Vec<(u32, Vec<Piece>)>,
+    /// Rounded corners, which stay sharp where that is faster (K-0146).
+    pub(crate) corners: Vec<Corner>,
+}
+
+/// A rounded corner between a block and the next one.
+#[derive(Clone)]
+pub(crate) struct Corner {
+    /// Index of the block before it.
+    pub(crate) block: usize,
+    /// Corner distance in mm.
+    pub(crate) distance_mm: f64,
+    /// Both sides of the sharp corner, from its distance on.
+    pub(crate) sides: [Piece; 2],
 }
 
 impl Case {
+    /// The contour with its corners as the interpolator passes them: on the curve, or on both sides.
+    pub(crate) fn as_driven(&self, run: &Run) -> Self {
+        let mut blocks = self.blocks.clone();
+        for Corner { block, distance_mm, sides } in &self.corners {
+            let corner = sides[1].point(0.0);
+            let near = run.records.iter().map(interpolated);
+            let near: Vec<Point> =
+                near.filter(|p| norm(minus(*p, corner)) < *distance_mm).collect();
+            let curve = &self.blocks[*block].1[1..];
+            let on = |pieces: &[Piece]| {
+                near.iter().filter(|p| deviation(pieces.iter(), **p) < 1e-8).count()
+            };
+            if on(sides) > on(curve) {
+                let before = blocks[*block].1.len() - curve.len();
+                blocks[*block].1.truncate(before);
+                blocks[*block].1.push(sides[0].clone());
+                blocks[*block + 1].1.insert(0, sides[1].clone());
+            }
+        }
+        Self { blocks, corners: Vec::new(), ..self.clone() }
+    }
+
     /// Largest component of the shortest vector from the pieces to a set point.
     pub(crate) fn within_mm(&self) -> f64 {
         if self.off_mm > 0.0 {

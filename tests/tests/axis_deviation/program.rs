@@ -1,5 +1,6 @@
 //! Random programs of lines, arcs, rounded corners and splines, with the geometry that they draw.
 
+use super::measure::Corner;
 use kontur_kit::Random;
 use kontur_tests::geometry::{Piece, Point, direction, dot, minus, norm};
 
@@ -10,14 +11,15 @@ pub(crate) struct Writer {
     pub(crate) at: Point,
     pub(crate) heading: f64,
     pub(crate) blocks: Vec<(u32, Vec<Piece>)>,
+    pub(crate) corners: Vec<Corner>,
     /// Commands that take turns after every so many blocks.
     pub(crate) switch: Option<([String; 2], usize)>,
 }
 
 impl Writer {
     pub(crate) fn new() -> Self {
-        let (text, blocks) = (String::new(), Vec::new());
-        Self { text, line: 0, at: [0.0; 3], heading: 0.0, blocks, switch: None }
+        let (text, blocks, corners) = (String::new(), Vec::new(), Vec::new());
+        Self { text, line: 0, at: [0.0; 3], heading: 0.0, blocks, corners, switch: None }
     }
 
     pub(crate) fn put(&mut self, line: &str) {
@@ -190,6 +192,11 @@ pub(crate) fn contoured(r: &mut Random, w: &mut Writer, scale: f64) {
         w.line_to(word, b);
         if let Some(block) = w.blocks.last_mut() {
             block.1 = pieces;
+        }
+        if rounds {
+            let beyond = [0, 1, 2].map(|k| b[k] + end * directions[i + 1][k]);
+            let sides = [Piece::Line(on(lengths[i] - end), b), Piece::Line(b, beyond)];
+            w.corners.push(Corner { block: w.blocks.len() - 1, distance_mm: end, sides });
         }
     }
 }
