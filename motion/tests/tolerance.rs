@@ -265,6 +265,27 @@ fn arcs_take_no_longer_with_a_larger_tolerance() {
     }
 }
 
+/// Behind a corner with a tolerance follows a circle without one: it is slow only beside the corner.
+#[test]
+fn an_arc_without_tolerance_is_slow_only_beside_the_corner() {
+    const FEED_MM_S: f64 = 60.0;
+    let job = guarded(machine(2, 0.02), 2, 20.0, 0.1, Some(0.01));
+    let [start, corner] = [[0.0, 0.0], [10.0, 0.0]].map(|p| AxisVec::from_slice(&p));
+    let line = Path::Line(LinePath::new(start.clone(), corner.clone(), &[]).unwrap());
+    // to the left, from 45 degrees on
+    let off = 4.0 * 0.5_f64.sqrt();
+    let sweep_rad = std::f64::consts::TAU;
+    let shape = ArcShape { plane: [0, 1], centre_mm: [10.0 - off, off], sweep_rad };
+    let circle = Path::Arc(ArcPath::new(corner.clone(), corner, shape, &[]).unwrap());
+    let mut last = job.block(1, circle, FEED_MM_S);
+    last.tolerance.ax_dev_mm = None;
+    let blocks = [job.block(0, line, FEED_MM_S), last];
+    let out = job.run(&start, blocks.into_iter());
+    let circle: Vec<_> = out.iter().filter(|p| p.seq == 1).collect();
+    let fast = circle.iter().filter(|p| p.v_mm_s > 0.99 * FEED_MM_S).count();
+    assert!(2 * fast > circle.len(), "{fast} of {} cycles at the feed rate", circle.len());
+}
+
 /// A tolerance just above the deviation of a program without one does not change a bit of the result.
 #[test]
 fn a_tolerance_that_is_kept_anyway_changes_nothing() {

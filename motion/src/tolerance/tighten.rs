@@ -203,9 +203,11 @@ fn ends_apart(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Option<f64>
     let is_arc = matches!(queued.block.path, Path::Arc(_) | Path::Tilted(_))
         && !queued.block.slope.keeps_ramp_times();
     let v = on_a_bend(trial, queued.bend, tolerance).min(queued.velocity.v_mm_s);
-    let reach_mm = v * f64::from(trial.kernels.length()) * trial.cycle.seconds();
-    let apart = is_whole && is_arc && !trial.kernels.unequal && 3.0 * reach_mm <= queued.length;
-    apart.then_some(reach_mm)
+    let held_mm = v * f64::from(trial.kernels.length()) * trial.cycle.seconds();
+    // what leaves the contour before or after the block is due to as much again
+    let reach_mm = if queued.block.tolerance.ax_dev_mm.is_some() { held_mm } else { 2.0 * held_mm };
+    let fits = 2.0 * reach_mm + held_mm <= queued.length;
+    (is_whole && is_arc && !trial.kernels.unequal && fits).then_some(reach_mm)
 }
 
 /// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived for a parabola).
