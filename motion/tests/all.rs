@@ -29,4 +29,5 @@ mod third_order_properties;
 mod third_order_reference;
 mod tilted;
 mod tolerance;
+mod tolerance_arcs;
 mod tolerance_curves;

@@ -11,14 +11,20 @@ use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 use kontur_motion::deviation::Meter;
 use kontur_motion::deviation::Unkept;
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
 
-fn guarded(mut job: Job, mode: u8, freq_hz: f64, damping: f64, ax_dev: Option<f64>) -> Job {
+pub(crate) fn guarded(
+    mut job: Job,
+    mode: u8,
+    freq_hz: f64,
+    damping: f64,
+    ax_dev: Option<f64>,
+) -> Job {
     let cycle = CycleTime::from_us(job.cycle_us).unwrap();
     job.kernel = Some(VibGuardSettings { mode, freq_hz, damping }.kernel(cycle).unwrap());
     job.tolerance = Tolerance { ax_dev_mm: ax_dev, acc_fact: 1.0 };
@@ -158,7 +164,7 @@ fn contours() -> impl Iterator<Item = (&'static str, &'static [&'static [f64]])>
 const F4000: f64 = 4000.0 / 60.0;
 
 /// A machine with sufficient acceleration for the corners: 3000 mm/s2.
-fn machine(axes: usize, ramp_s: f64) -> Job {
+pub(crate) fn machine(axes: usize, ramp_s: f64) -> Job {
     let mut fast = axis(1.0);
     fast.feed.acc_mm_s2 = 3000.0;
     fast.feed.dec_mm_s2 = 3000.0;
@@ -215,75 +221,6 @@ fn no_slower_than_the_best_uniform_corner_speed() {
         }
     }
     assert!(compared >= 33, "{compared} of 44 can be kept with a uniform speed");
-}
-
-/// A blend of a line into an arc with a kink of a sixth of a degree, and two arcs at a corner: a larger tolerance never takes
-/// longer, and neighbouring ones take nearly the same time.
-#[test]
-fn arcs_take_no_longer_with_a_larger_tolerance() {
-    let line = |from: [f64; 2], to: [f64; 2]| {
-        let ends = [from, to].map(|p| AxisVec::from_slice(&p));
-        let [from, to] = ends;
-        Path::Line(LinePath::new(from, to, &[]).unwrap())
-    };
-    // the centre lies on the bisector, `off` to the left of the chord
-    let arc = |from: [f64; 2], to: [f64; 2], off: f64, sense: f64| {
-        let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-        let chord = libm::hypot(dx, dy);
-        let centre_mm = [
-            0.5 * (from[0] + to[0]) - off * dy / chord,
-            0.5 * (from[1] + to[1]) + off * dx / chord,
-        ];
-        let half = libm::atan2(0.5 * chord, sense * off);
-        let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: 2.0 * sense * half };
-        let [from, to] = [from, to].map(|p| AxisVec::from_slice(&p));
-        Path::Arc(ArcPath::new(from, to, shape, &[]).unwrap())
-    };
-    let blend = [line([0.0, 0.0], [-4.0, -0.7]), arc([-4.0, -0.7], [-5.65, -6.0], 1.424, 1.0)];
-    let corner = [
-        arc([0.0, 0.0], [-4.2, -2.38], 0.63, -1.0),
-        arc([-4.2, -2.38], [-4.18, -1.5], -1.69, -1.0),
-    ];
-    for paths in [&blend, &corner] {
-        for kind in [Hsc, Trapez, Sin2] {
-            let mut last: Option<usize> = None;
-            for step in 0..11 {
-                let ax_dev_mm = 0.02 + 0.0008 * f64::from(step);
-                let job = guarded(Job::new(1.0, kind), 2, 8.0, 0.1, Some(ax_dev_mm));
-                let blocks =
-                    paths.iter().zip(0..).map(|(path, i)| job.block(i, path.clone(), 33.0));
-                let cycles = job.run(paths[0].start(), blocks).len();
-                let (least, most) =
-                    last.map_or((0, usize::MAX), |last| (last - last / 25, last + 2));
-                assert!(
-                    (least..=most).contains(&cycles),
-                    "{kind:?} {ax_dev_mm}: {cycles} cycles after {last:?}"
-                );
-                last = Some(cycles);
-            }
-        }
-    }
-}
-
-/// Behind a corner with a tolerance follows a circle without one: it is slow only beside the corner.
-#[test]
-fn an_arc_without_tolerance_is_slow_only_beside_the_corner() {
-    const FEED_MM_S: f64 = 60.0;
-    let job = guarded(machine(2, 0.02), 2, 20.0, 0.1, Some(0.01));
-    let [start, corner] = [[0.0, 0.0], [10.0, 0.0]].map(|p| AxisVec::from_slice(&p));
-    let line = Path::Line(LinePath::new(start.clone(), corner.clone(), &[]).unwrap());
-    // to the left, from 45 degrees on
-    let off = 4.0 * 0.5_f64.sqrt();
-    let sweep_rad = std::f64::consts::TAU;
-    let shape = ArcShape { plane: [0, 1], centre_mm: [10.0 - off, off], sweep_rad };
-    let circle = Path::Arc(ArcPath::new(corner.clone(), corner, shape, &[]).unwrap());
-    let mut last = job.block(1, circle, FEED_MM_S);
-    last.tolerance.ax_dev_mm = None;
-    let blocks = [job.block(0, line, FEED_MM_S), last];
-    let out = job.run(&start, blocks.into_iter());
-    let circle: Vec<_> = out.iter().filter(|p| p.seq == 1).collect();
-    let fast = circle.iter().filter(|p| p.v_mm_s > 0.99 * FEED_MM_S).count();
-    assert!(2 * fast > circle.len(), "{fast} of {} cycles at the feed rate", circle.len());
 }
 
 /// A tolerance just above the deviation of a program without one does not change a bit of the result.

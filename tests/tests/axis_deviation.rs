@@ -53,15 +53,7 @@ fn case(seed: u64) -> Case {
         _ => off_mm = splined(&mut r, &mut w),
     }
     w.put("M30");
-    Case {
-        text: w.text,
-        settings,
-        tolerance_mm,
-        off_mm,
-        reach,
-        blocks: w.blocks,
-        corners: w.corners,
-    }
+    Case { off_mm, ..w.case(settings, tolerance_mm, reach) }
 }
 
 /// Runs the program of a number and judges it; returns the largest deviation of a set point as a share of the tolerance.

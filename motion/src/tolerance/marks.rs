@@ -29,7 +29,7 @@ pub(super) struct Mark {
     pub(super) axis: usize,
     /// Point of entry, if this is not the start of the path.
     pub(super) inside: Option<AxisVec>,
-    /// Whether the path continues without a corner from the mark before, see [`Self::goes_on_from`].
+    /// Whether the path continues without a corner from the mark before, as the remainder of its block.
     pub(super) goes_on: bool,
 }
 
@@ -42,12 +42,6 @@ impl Mark {
     /// Point of entry.
     pub(super) fn point(&self) -> &AxisVec {
         self.inside.as_ref().unwrap_or_else(|| self.queued.block.path.start())
-    }
-
-    /// Whether the path continues without a corner, as the remainder of the block before.
-    pub(super) fn goes_on_from(&self, before: &Self) -> bool {
-        let start = |m: &Self| m.s_mm - m.queued.offset;
-        (start(before) - start(self)).abs() < SAME_START_MM
     }
 }
 

@@ -310,7 +310,7 @@ impl View<'_> {
     /// Component in the direction `toward` of the change of direction at the entry of a mark's block.
     pub(super) fn turn(&self, m: usize, toward: &[f64]) -> f64 {
         let Some(before) = m.checked_sub(1).map(|b| &self.marks[b]) else { return 0.0 };
-        if self.marks[m].goes_on_from(before) {
+        if self.marks[m].goes_on {
             return 0.0;
         }
         let [out, into] = [&before.queued.ends.tangent_out, &self.marks[m].queued.ends.tangent_in];

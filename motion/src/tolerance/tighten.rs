@@ -206,7 +206,7 @@ fn ends_apart(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Option<f64>
     let held_mm = v * f64::from(trial.kernels.length()) * trial.cycle.seconds();
     // what leaves the contour before or after the block is due to as much again
     let reach_mm = if queued.block.tolerance.ax_dev_mm.is_some() { held_mm } else { 2.0 * held_mm };
-    let fits = 2.0 * reach_mm + held_mm <= queued.length;
+    let fits = reach_mm > 0.0 && 2.0 * reach_mm + held_mm <= queued.length;
     (is_whole && is_arc && !trial.kernels.unequal && fits).then_some(reach_mm)
 }
 

@@ -101,13 +101,5 @@ pub(crate) fn case(seed: u64) -> Case {
         w.line_to("G01", p);
     }
     w.put("M30");
-    Case {
-        text: w.text,
-        settings,
-        tolerance_mm,
-        off_mm: 0.0,
-        reach,
-        blocks: w.blocks,
-        corners: w.corners,
-    }
+    w.case(settings, tolerance_mm, reach)
 }

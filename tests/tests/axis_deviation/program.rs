@@ -1,6 +1,6 @@
 //! Random programs of lines, arcs, rounded corners and splines, with the geometry that they draw.
 
-use super::measure::Corner;
+use super::measure::{Case, Corner};
 use kontur_kit::Random;
 use kontur_tests::geometry::{Piece, Point, direction, dot, minus, norm};
 
@@ -20,6 +20,12 @@ impl Writer {
     pub(crate) fn new() -> Self {
         let (text, blocks, corners) = (String::new(), Vec::new(), Vec::new());
         Self { text, line: 0, at: [0.0; 3], heading: 0.0, blocks, corners, switch: None }
+    }
+
+    /// The program, whose contour is known exactly; `reach`: number of cycles that its filter reaches back.
+    pub(crate) fn case(self, settings: Vec<String>, tolerance_mm: f64, reach: usize) -> Case {
+        let Self { text, blocks, corners, .. } = self;
+        Case { text, settings, tolerance_mm, off_mm: 0.0, reach, blocks, corners }
     }
 
     pub(crate) fn put(&mut self, line: &str) {

@@ -113,15 +113,7 @@ fn wide(seed: u64) -> Wide {
     }
     w.put("M30");
     let inputs = if what == 2 { inputs(&mut r) } else { Vec::new() };
-    let case = Case {
-        text: w.text,
-        settings,
-        tolerance_mm,
-        off_mm: 0.0,
-        reach,
-        blocks: w.blocks,
-        corners: w.corners,
-    };
+    let case = w.case(settings, tolerance_mm, reach);
     let cycle_s = 1e-6 * f64::from(cycle_us);
     let equal = !case.settings.iter().any(|s| s.contains("vib_guard"));
     let bounded = equal && kind != 2 && what != 1 && inputs.is_empty();

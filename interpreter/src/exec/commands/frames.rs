@@ -147,6 +147,13 @@ pub(super) fn turns_alike(decoder: &Decoder, call: &Call<'_>, frame: &Frame) -> 
     Ok(())
 }
 
+/// K-0150: no main axis may move independently.
+pub(super) fn no_independent_axis(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
+    let Decoder { motion, geometry, names, .. } = decoder;
+    let title = call.title();
+    motion.independent.none_independent(&title, &geometry.coordinates, names, call.span())
+}
+
 /// 21556: a main axis of a coordinate system must not be a modulo axis.
 pub(super) fn no_modulo_axes(decoder: &Decoder, call: &Call<'_>) -> Outcome<()> {
     let axes = (0..3).filter_map(|main| decoder.geometry.coordinates.main_axis(main));
@@ -195,12 +202,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             let (frame, number) = system_of(decoder, call, groups)?;
             no_modulo_axes(decoder, call)?;
             turns_alike(decoder, call, &frame)?;
-            decoder.motion.independent.none_independent(
-                &call.title(),
-                &decoder.geometry.coordinates,
-                &decoder.names,
-                call.span(),
-            )?;
+            no_independent_axis(decoder, call)?;
             decoder.geometry.coordinates.push_system(frame, number);
             Ok(())
         }

@@ -3,6 +3,7 @@
 //! Source: TF5200 programming manual; 20671, 20875, 21514.
 
 use super::flush::may_flush;
+use super::frames;
 use super::refused::numbers_of;
 use super::row::Call;
 use crate::diag::Condition;
@@ -97,12 +98,7 @@ pub(super) fn transformation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<
     }
     if ["TRAFO", "RTCP"].contains(&call.name) {
         if !off {
-            decoder.motion.independent.none_independent(
-                &call.title(),
-                &decoder.geometry.coordinates,
-                &decoder.names,
-                call.span(),
-            )?;
+            frames::no_independent_axis(decoder, call)?;
         }
         decoder.geometry.transformation_on = !off;
     }

@@ -134,12 +134,7 @@ fn select(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let place = place(decoder, name(group)?)?;
     changes(decoder, call)?;
     frames::no_modulo_axes(decoder, call)?;
-    decoder.motion.independent.none_independent(
-        &call.title(),
-        &decoder.geometry.coordinates,
-        &decoder.names,
-        call.span(),
-    )?;
+    frames::no_independent_axis(decoder, call)?;
     decoder.geometry.coordinates.stack_select(place + 1);
     Ok(())
 }
