@@ -144,6 +144,7 @@ impl Contour {
             return self.joined(motion);
         }
         let mut curves = Vec::new();
+        let unused = motion.akima.then(|| self.akima.unused_start(&motion)).flatten();
         let (outcome, behind) = if motion.akima {
             (self.akima.point(motion, self.held.as_deref(), &mut curves), None)
         } else {
@@ -151,6 +152,7 @@ impl Contour {
             (self.akima.finish(Some(&motion), &mut curves), Some(motion))
         };
         let mut faults = self.splined(curves, outcome);
+        faults.extend(unused);
         faults.extend(behind.into_iter().flat_map(|behind| self.joined(behind)));
         faults
     }

@@ -339,7 +339,7 @@ impl Decoder {
                 let text = "a spline is deselected (G150) while #HSC ON [BSPLINE] is active";
                 return Err(Fault::new(Condition::SplineInSurface, text, g.span));
             }
-            Act::Spline(on) => self.contour.akima.select(on),
+            Act::Spline(on) => self.report.extend(self.contour.akima.select(on, g.span)),
             Act::Tangential => {
                 permits_tangential(g, words, self.modal.selection)?;
                 self.contour.tangential = true;

@@ -36,7 +36,8 @@ fn spline(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         let text = "#SPLINE needs ON or OFF";
         return Err(Fault::new(Condition::TokenUnknown, text, call.span()));
     };
-    decoder.contour.akima.select(on);
+    let unused = decoder.contour.akima.select(on, call.span());
+    decoder.report.extend(unused);
     Ok(())
 }
 

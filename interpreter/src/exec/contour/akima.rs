@@ -69,6 +69,11 @@ impl End {
         }
     }
 
+    /// Whether it is the end of a spline at an arc, whose tangent replaces the programmed vector.
+    fn loses_vector(&self, at_arc: bool) -> bool {
+        at_arc && self.transition == Transition::User && !self.vector.is_empty()
+    }
+
     /// Derivatives of single axes, or of all.
     fn tangent(&self, neighbour: Option<AxisVec>) -> Given {
         match (self.transition, neighbour) {
@@ -144,9 +149,20 @@ pub(in crate::exec) struct Akima {
     pub(in crate::exec) selected: bool,
     /// Whether there was a motion before, which gives the direction of a tangential start.
     pub(super) moved: bool,
+    /// Whether no spline has begun since G151.
+    begins: bool,
     /// Whether an arc has interrupted the spline, which then continues tangentially.
     behind_arc: bool,
     run: Option<Box<Run>>,
+}
+
+/// K-0100: the vector of a spline that begins or ends at an arc.
+fn unused_vector(command: &str, at: Span) -> Fault {
+    let text = format!(
+        "#AKIMA {command} has no effect here: beside an arc the spline has the tangent of the arc"
+    );
+    *Fault::new(Condition::Ignored, text, at)
+        .hint("arcs interrupt a spline tangentially; write G150 before the arc, or G151 after it")
 }
 
 /// Direction of a path at one of its ends, by its length.
@@ -284,10 +300,19 @@ fn falls_below(f: impl Fn(f64) -> f64, limit: f64, slope: f64) -> bool {
 }
 
 impl Akima {
-    /// G150, G151.
-    pub(in crate::exec) fn select(&mut self, on: bool) {
-        self.selected = on;
-        self.behind_arc = false;
+    /// G150, G151; a note if the spline has ended at an arc although the program states the tangent of its end.
+    pub(in crate::exec) fn select(&mut self, on: bool, at: Span) -> Vec<Fault> {
+        let at_arc = std::mem::take(&mut self.behind_arc) && self.run.is_none();
+        (self.selected, self.begins) = (on, on);
+        let unused = !on && self.end.loses_vector(at_arc);
+        unused.then(|| unused_vector("ENDVECTOR", at)).into_iter().collect()
+    }
+
+    /// A note if the first spline of G151 begins at an arc although the program states the tangent of its start.
+    pub(super) fn unused_start(&self, motion: &Motion) -> Option<Fault> {
+        let begins = self.begins && self.run.is_none();
+        (begins && self.start.loses_vector(self.behind_arc))
+            .then(|| unused_vector("STARTVECTOR", motion.span))
     }
 
     /// A motion outside splines, while none is in progress: the next one continues tangentially behind an arc.
@@ -332,6 +357,7 @@ impl Akima {
                 behind_arc,
             })
         });
+        self.begins = false;
         run.waiting.push_back(motion);
         run.slopes.push_back(slope);
         while run.waiting.len() > AHEAD {

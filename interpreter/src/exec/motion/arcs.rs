@@ -1,7 +1,7 @@
 //! Centre, end and faults of a programmed arc.
 
 use super::plane::PlaneImage;
-use crate::diag::{Condition, ValueKind};
+use crate::diag::{Condition, ValueKind, rounded};
 use crate::exec::block::choice::PathMode;
 use crate::exec::block::collected::{Placed, Words};
 use crate::exec::block::groups::{Act, Group};
@@ -21,6 +21,10 @@ use crate::machine::{ArcCentre, Channel};
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
 use kontur_motion::path::{ArcPath, ArcShape, Path, TiltedArc};
+use std::f64::consts::TAU;
+
+/// Difference in mm per turn from which a helix counts as one of another pitch: the resolution of a position.
+const PITCH_RESOLUTION_MM: f64 = 1e-4;
 
 impl Modal {
     /// I, J and K of a block in the plane of its arc. With P-CHAN-00159 = 1 the last values apply to those that the block
@@ -295,6 +299,9 @@ impl Decoder {
                 self.report.note(Fault::new(Condition::Odd, text, at).warning());
             } else {
                 arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
+                if let Some(text) = other_pitch(arc.sweep_rad, height, pitch_mm) {
+                    self.report.note(Fault::new(Condition::Odd, text, at));
+                }
             }
         }
         let absolute = self.modal.centre_absolute && has_centre && image.tilt.is_none();
@@ -313,6 +320,22 @@ impl Decoder {
         Ok(match image.tilt {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
+        })
+    }
+}
+
+/// What a helix makes of a pitch with which it does not arrive at its end point, or whose sign says nothing.
+fn other_pitch(sweep_rad: f64, height_mm: f64, pitch_mm: f64) -> Option<String> {
+    let actual_mm = (height_mm * TAU / sweep_rad).abs();
+    if (actual_mm - pitch_mm.abs()).abs() > PITCH_RESOLUTION_MM {
+        Some(format!(
+            "the helix does not reach its end point with a pitch of {} mm: it is driven with {} mm per turn",
+            rounded(pitch_mm.abs()),
+            rounded(actual_mm)
+        ))
+    } else {
+        (pitch_mm < 0.0).then(|| {
+            "the sign of the pitch has no meaning: G02 and G03 and the end point give the direction of the helix".to_owned()
         })
     }
 }

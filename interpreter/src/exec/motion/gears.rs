@@ -65,6 +65,8 @@ impl Decoder {
             self.sync(Sync::Spindle { spindle: index, state: SpindleState::Rest });
             self.contour.event(Event::SpindleDynamics { spindle: index, dynamics });
             self.axis_changes(number, span);
+            // the S word was within the limit of the stage before
+            self.motion.spindles[spindle].check_speed(&self.machine, &mut self.report, span);
         }
         Ok(())
     }

@@ -13,6 +13,7 @@
 use super::state::BeforeCycle;
 use crate::exec::block::modal::Modal;
 use crate::exec::decoder::Decoder;
+use crate::syntax::ast::Span;
 
 impl Decoder {
     pub(super) fn enter_cycle(&mut self) -> BeforeCycle {
@@ -37,7 +38,7 @@ impl Decoder {
             self.contour.event(self.motion.feedforward.event());
         }
         if spline != self.contour.akima.selected {
-            self.contour.akima.select(spline);
+            self.report.extend(self.contour.akima.select(spline, Span::default()));
         }
         let coordinates = &mut self.geometry.coordinates;
         let (group, by_value) = zero_group;

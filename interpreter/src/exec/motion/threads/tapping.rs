@@ -21,8 +21,8 @@ use std::sync::Arc;
 const SPEED_MAX: f64 = 1e6;
 
 impl MotionState {
-    /// The delays in ms by the filters of an axis and of the main spindle; the axis is the first one of a path whose filters are
-    /// not those of the spindle.
+    /// The delays in ms by the filters of an axis and of the main spindle; the axis is the one that travels
+    /// farthest of those whose filters are not those of the spindle.
     fn shaped_apart(
         &self,
         path: &Path,
@@ -36,12 +36,14 @@ impl MotionState {
             let cycles = kernel.map_or(0.0, Kernel::delay_cycles);
             (cycles + axis.standard_filter_delay_cycles(cycle)) * f64::from(cycle.us()) / 1e3
         };
-        moving(path).find_map(|i| {
+        let apart = moving(path).filter_map(|i| {
             let kernel = shaping.setup.axes[i].kernel.as_deref();
             let delays_ms = [ms(kernel, &machine.axes[i]), ms(of_spindle, turning)];
             let apart = kernel != of_spindle || (delays_ms[0] - delays_ms[1]).abs() > 1e-6;
             apart.then_some((i, delays_ms))
-        })
+        });
+        let way = |i: usize| (path.end()[i] - path.start()[i]).abs();
+        apart.max_by(|(a, _), (b, _)| way(*a).total_cmp(&way(*b)))
     }
 
     /// Differences that keep an axis and its spindle from being at the same point of the thread: filters, following error.

@@ -5,6 +5,7 @@ use crate::diag::{Condition, ValueKind, rounded};
 use crate::exec::block::collected::Words;
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
+use crate::exec::geometry::coordinates::Coordinates;
 use crate::exec::motion::spindles::Spindle;
 use crate::exec::motion::state::Threads;
 use crate::exec::report::{Report, Subject};
@@ -116,6 +117,13 @@ impl Decoder {
             let text = "the pitch of G33 must not have a sign: M03 and M04 set the direction";
             return Err(Fault::new(Condition::ThreadPitch, text, span));
         }
+        if let Some(farther) = farther_than(&path, axis, &self.geometry.coordinates) {
+            let [other, name] = [farther, axis].map(|i| self.names.name(i));
+            let text = format!(
+                "the pitch is that along {name}, although the thread runs farther along {other}: at 45 deg and more it is usually given along {other}"
+            );
+            self.report.note(Fault::new(Condition::Odd, text, span));
+        }
         let index = turning_spindle(&self.motion.spindles[0], span)?;
         let rev_s =
             self.motion.spindles[0].rpm.abs().min(self.motion.spindles[0].most_rpm(&self.machine))
@@ -162,6 +170,14 @@ impl Decoder {
         self.send(block, plane, None, span);
         Ok(())
     }
+}
+
+/// The main axis that a path moves farther than the one of the pitch.
+fn farther_than(path: &Path, pitch: usize, coordinates: &Coordinates) -> Option<usize> {
+    let way = |axis: usize| (path.end()[axis] - path.start()[axis]).abs();
+    let main = (0..3).filter_map(|main| coordinates.main_axis(main));
+    main.filter(|axis| way(*axis) > way(pitch) + PITCH_ROUNDING_MM)
+        .max_by(|a, b| way(*a).total_cmp(&way(*b)))
 }
 
 /// The index of the spindle if it turns.
