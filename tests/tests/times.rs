@@ -204,7 +204,11 @@ fn lines_never_go_back() {
         for _ in 0..12 {
             let to = random.between(0.0, 40.0);
             text += &match random.below(10) {
-                0..3 => format!("G01 X{to:.2}\n"),
+                0..2 => format!("G01 X{to:.2}\n"),
+                // AX_DEV keeps the path at rest for longer than the program asks for
+                2 => format!(
+                    "#VIB GUARD ON [MODE=2 FREQ=20 AX_DEV=0.01]\nX{to:.2}\nG04 0.01\nZ{to:.2}\nG04 0.001\nX0\n"
+                ),
                 3 => format!("G04 {:.3}\n", random.between(0.0, 0.2)),
                 4 => format!("X[INDP_SYN G90 G01 FEED=3000 POS={to:.2}]\n"),
                 5 => format!("Y[INDP_ASYN G90 G01 FEED=3000 POS={to:.2}]\n#WAIT INDP [Y]\n"),

@@ -9,12 +9,12 @@ use kontur_motion::ahead::Row;
 
 impl Simulation {
     /// Block that the cycle belongs to. Waits for the remainder of a motion belong to its block, as long as no other
-    /// block has had cycles since.
+    /// block has had cycles since; a path that still rests after such cycles stays in the block that had them.
     fn block_of_cycle(&self) -> SourceRef {
         let is_over = self.blocks.shown != self.blocks.current || self.blocks.current.line == 0;
         match &self.phase {
             Phase::Waiting(wait) if is_over || wait.is_of_its_own_block() => self.blocks.waits_at,
-            Phase::Running if self.is_held => self.blocks.shown,
+            Phase::Running => self.blocks.shown,
             Phase::Stopping(stopping) => stopping.waited_at.unwrap_or(self.blocks.current),
             _ => self.blocks.current,
         }
@@ -28,7 +28,7 @@ impl Simulation {
                 self.progress.begin(block.programmed, s_mm, changed);
                 // the block began after the previous cycle
                 self.time_begins(block.time_s, block.source, k.saturating_sub(1));
-                self.blocks.current = block.source;
+                (self.blocks.current, self.blocks.shown) = (block.source, block.source);
                 self.motion = block.motion;
                 for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {
                     if let Driver::Path(p) = driver {
@@ -122,7 +122,7 @@ impl Simulation {
     /// The record is that of cycle `k`, in which nothing but the path and its block differ from the one before, apart from the
     /// axes.
     pub(super) fn pass(&mut self, k: u64, path: Row) {
-        let at = self.blocks.current;
+        let at = self.blocks.shown;
         let CycleRecord { path: record, .. } = &mut self.record;
         *record = PathRecord {
             s_mm: path.s_mm,

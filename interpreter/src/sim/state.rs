@@ -102,7 +102,7 @@ pub(in crate::sim) struct Queue {
 #[derive(Debug)]
 pub(in crate::sim) struct BlockRefs {
     pub(in crate::sim) current: SourceRef,
-    /// Block of the last cycle, see [`Simulation::block_of_cycle`].
+    /// Block of the last cycle, or one entered since, see [`Simulation::block_of_cycle`].
     pub(in crate::sim) shown: SourceRef,
     /// Block for which the path waits at rest.
     pub(in crate::sim) waits_at: SourceRef,
