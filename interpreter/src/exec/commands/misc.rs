@@ -90,21 +90,11 @@ pub(super) const TIME: Row = Row::run("TIME", time)
 /// `#TIME t`.
 fn time(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
-    match (&call.command.arguments[..], call.command.groups.first()) {
-        ([expr], None) => {
+    match &call.command.arguments[..] {
+        [expr] if call.command.groups.is_empty() => {
             let seconds = decoder.number(expr)?;
             decoder.dwell_for(seconds, Condition::TimeRange, expr.span)
         }
-        ([], Some(group)) => match &group.items[..] {
-            [item] => match &item.kind {
-                ItemKind::Value(ItemValue::Expr(expr)) => {
-                    let seconds = decoder.number(expr)?;
-                    decoder.dwell_for(seconds, Condition::TimeRange, expr.span)
-                }
-                _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs a time in s", item.span)),
-            },
-            _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs one time in s", group.span)),
-        },
         _ => Err(Fault::new(Condition::TokenUnknown, "#TIME needs one time in s", call.span())),
     }
 }
@@ -147,6 +137,11 @@ fn wait(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             let text = "the condition is false and cannot become true in the simulation";
             let fault = Fault::new(Condition::Wait, text, condition.span);
             Err(fault.with(|d| d.severity(crate::diag::Severity::Error)))
+        }
+        ([word, ..], _) if word.is("FOR") => {
+            let text = "#WAIT FOR needs one condition";
+            let hint = "write an expression after it: #WAIT FOR V.E.READY";
+            Err(Fault::new(Condition::TokenUnknown, text, call.span()).hint(hint))
         }
         _ => {
             decoder.sync(Sync::FlushWait);

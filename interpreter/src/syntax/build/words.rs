@@ -126,9 +126,11 @@ impl<'a> Builder<'a> {
                 | Rule::equals_name
                 | Rule::position_name
                 | Rule::letter
-                | Rule::name_letters
-                | Rule::bracket_hash
-                | Rule::hash_name => parts.name = Some(self.written(span)),
+                | Rule::name_letters => parts.name = Some(self.written(span)),
+                // a remark may stand between the words
+                Rule::bracket_hash | Rule::hash_name => {
+                    parts.name = self.masked.get(span.start as usize..span.end() as usize);
+                }
                 Rule::place => parts.place = Some(self.place(part)),
                 Rule::compound => {
                     parts.operator = Some(BinaryOp::from_text(&part.as_str()[..1]));

@@ -5,8 +5,8 @@ mod control;
 use super::LABEL_MAX;
 use super::entry::{Entry, EntryId};
 use super::head::{
-    Head, SAYING, blank, ends_program, head, is_command, name_of, real_time_cycle, says_nothing,
-    word,
+    Head, SAYING, behind_command, blank, ends_program, head, is_command, name_of, real_time_cycle,
+    says_nothing, split_word, word,
 };
 use super::keyword::Keyword;
 use super::{Index, LabelPlace, Section};
@@ -259,7 +259,8 @@ impl Builder<'_> {
     }
 
     fn command(&mut self, raw: &RawBlock<'_>, head: &Head<'_>) {
-        let name = word(head.rest[1..].trim_start());
+        let text = blank(&head.rest[1..]);
+        let name = word(text);
         match name.as_str() {
             "COMMENT" if is_command(head.rest, "COMMENT", "BEGIN") => {
                 self.alone(raw, head, Condition::CommentBeginNotAlone);
@@ -288,6 +289,21 @@ impl Builder<'_> {
                 };
                 let keyword =
                     if name == "ELSE" { Keyword::ConditionalElse } else { Keyword::ConditionalEnd };
+                let said = if !is_end(split_word(text).1) {
+                    let text = format!("{} is not alone in its block", keyword.text());
+                    Some((text, "move the words to the next block"))
+                } else if keyword == Keyword::ConditionalElse
+                    && self.last_clause.contains_key(&open)
+                {
+                    let text = "a second #ELSE of the same #IF: its blocks never run".to_owned();
+                    Some((text, "remove it, or write #ENDIF and a further #IF before it"))
+                } else {
+                    None
+                };
+                if let Some((text, hint)) = said {
+                    let d = Diagnostic::new(Condition::Syntax, text).hint(hint);
+                    self.report(raw, head.at, head.rest.trim_end().len(), d);
+                }
                 let id = self.push(raw.position, head.at, keyword);
                 self.index.entries.change(id, |e| e.open = Some(open));
                 self.chain(open, id);
@@ -340,18 +356,18 @@ impl Builder<'_> {
 
     /// Checks that `#COMMENT BEGIN` and `#COMMENT END` are alone in their blocks.
     fn alone(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, condition: Condition) {
-        let word = |text: &str| {
-            text.trim_start_matches(|c: char| c.is_ascii_alphanumeric()).trim_start().len()
-        };
-        let second = &head.rest[head.rest.len() - word(head.rest[1..].trim_start())..];
-        let behind = blank(&second[second.len() - word(second)..]);
-        if !behind.is_empty() && !behind.starts_with(';') {
+        if !is_end(behind_command(head.rest)) {
             let name = if condition == Condition::CommentBeginNotAlone { "BEGIN" } else { "END" };
             let text = format!("#COMMENT {name} is not alone in its block");
             let d = Diagnostic::new(condition, text);
             self.report(raw, head.at, head.rest.trim_end().len(), d);
         }
     }
+}
+
+/// Whether nothing but a remark follows.
+fn is_end(text: &str) -> bool {
+    text.is_empty() || text.starts_with(';')
 }
 
 /// Builds the index of a program. Faults in its structure are returned as well.

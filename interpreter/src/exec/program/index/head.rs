@@ -1,5 +1,6 @@
 //! The beginning of a block, as far as the structure requires it: label, words, ends of programs, empty lines.
 
+use crate::source::regions::{Region, regions};
 use crate::syntax::ast::LabelKind;
 
 /// Beginning of a block, as needed by an index.
@@ -65,7 +66,7 @@ pub(in crate::exec) fn structure(text: &str) -> Option<(&'static str, usize)> {
     let Head { rest, at, .. } = head(text);
     let name = match rest.bytes().next()? {
         b'%' => "%",
-        b'#' => match word(rest[1..].trim_start()).as_str() {
+        b'#' => match word(blank(&rest[1..])).as_str() {
             "IF" => "#IF",
             "ELSE" => "#ELSE",
             "ENDIF" => "#ENDIF",
@@ -126,9 +127,14 @@ pub(super) fn ends_program(text: &str) -> bool {
     memchr::memchr2_iter(b'M', b'm', bytes).any(|i| {
         let rest = &text[i + 1..];
         let length = digits(rest);
-        let comment = memchr::memchr2(b'(', b';', &bytes[..i]).is_some();
-        !comment && matches!(rest[..length].trim_start_matches('0'), "2" | "30")
+        matches!(rest[..length].trim_start_matches('0'), "2" | "30") && is_code(text, i)
     })
+}
+
+/// Whether a byte is neither in a comment nor in a text.
+fn is_code(text: &str, at: usize) -> bool {
+    memchr::memchr3(b'(', b';', b'"', &text.as_bytes()[..at]).is_none()
+        || regions(text).any(|(region, range)| region == Region::Code && range.contains(&at))
 }
 
 /// Bytes that do not occur in a line that [has no effect on the structure](says_nothing): `M` could end the program,
@@ -157,9 +163,20 @@ pub(super) fn name_of(text: &str) -> Option<&str> {
 
 /// Whether it is `#FIRST SECOND`.
 pub(super) fn is_command(rest: &str, first: &str, second: &str) -> bool {
-    let behind = rest[1..].trim_start();
-    let length = behind.bytes().take_while(u8::is_ascii_alphanumeric).count();
-    behind[..length].eq_ignore_ascii_case(first) && word(behind[length..].trim_start()) == second
+    let behind = blank(&rest[1..]);
+    let (name, more) = split_word(behind);
+    name.eq_ignore_ascii_case(first) && word(more) == second
+}
+
+/// The word at the beginning, and the text behind it without blanks and comments before that.
+pub(super) fn split_word(text: &str) -> (&str, &str) {
+    let length = text.bytes().take_while(u8::is_ascii_alphanumeric).count();
+    (&text[..length], blank(&text[length..]))
+}
+
+/// What follows the first two words of a command.
+pub(super) fn behind_command(rest: &str) -> &str {
+    split_word(split_word(blank(&rest[1..])).1).1
 }
 
 /// `#RT CYCLE` and `#RT CYCLE DEF` (true), `#RT CYCLE END` (false); `None` for other commands, including those that
@@ -168,8 +185,7 @@ pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
     if !is_command(rest, "RT", "CYCLE") {
         return None;
     }
-    let behind = rest[1..].trim_start()["RT".len()..].trim_start();
-    match word(behind["CYCLE".len()..].trim_start()).as_str() {
+    match word(behind_command(rest)).as_str() {
         "" | "DEF" => Some(true),
         "END" => Some(false),
         _ => None,
@@ -178,7 +194,10 @@ pub(super) fn real_time_cycle(rest: &str) -> Option<bool> {
 
 /// Whether `$GOTO` follows the condition; `$` may be missing in both.
 pub(super) fn contains_goto(rest: &str) -> bool {
-    let code = rest.split([';', '(']).next().unwrap_or("").to_ascii_uppercase();
+    let code: String = regions(rest)
+        .map(|(region, range)| if region == Region::Code { &rest[range] } else { " " })
+        .collect();
+    let code = code.to_ascii_uppercase();
     let mut words = code.split_ascii_whitespace();
     code.contains("$GOTO") || !code.starts_with('$') && words.any(|word| word == "GOTO")
 }

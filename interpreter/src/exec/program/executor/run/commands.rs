@@ -24,9 +24,11 @@ impl Executor {
             }
             return;
         }
-        let conditional = command.is("IF") || command.is("ELSE") || command.is("ENDIF");
+        // words behind them have been reported with the structure of the file
+        let first = command.words.first().map_or("", |word| &word.text);
+        let conditional = ["IF", "ELSE", "ENDIF"].contains(&first);
         if conditional || command.is("COMMENT BEGIN") || command.is("COMMENT END") {
-            if let (Some(entry), true) = (entry, command.is("IF")) {
+            if let (Some(entry), "IF") = (entry, first) {
                 self.conditional(command, entry);
             }
             return;
