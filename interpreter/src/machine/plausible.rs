@@ -66,6 +66,9 @@ pub(super) fn check(
         let weights = [axis_drive::FF_SPEED_NUM, axis_drive::FF_SPEED_DENOM];
         let wrong = |d: &Diagnostic| weights.iter().any(|weight| d.parameter == weight.id());
         if diagnostics.iter().skip(first).any(wrong) {
+            for d in diagnostics.iter_mut().skip(first).filter(|d| wrong(d)) {
+                d.text.push_str(" for both weights (P-AXIS-00514, P-AXIS-00515)");
+            }
             for param in weights {
                 parameters.set(param.place().row, [0; 2], Value::Number(1.0), None);
             }

@@ -120,12 +120,21 @@ impl Decoder {
         if let Some(spindle) = self.motion.spindle_of_name(name, &self.machine.channel) {
             return self.spindle_bracket(spindle, bracket, words);
         }
-        // `X100 [NAME]` looks like a bracket of an axis X100
-        if let ([Item { kind: ItemKind::Flag(_), .. }], true) =
+        // `X100 [NAME]` looks like a bracket of an axis X100, unlike `S1[G135]`
+        let is_function = |word: &str| {
+            let number = word.strip_prefix(['G', 'M', 'H']);
+            number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+        };
+        if let ([Item { kind: ItemKind::Flag(word), .. }], true) =
             (&bracket.group.items[..], name.ends_with(|c: char| c.is_ascii_digit()))
+            && !is_function(&word.text)
         {
             let text = "a label must be first in its block, not after other words";
             return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
+        }
+        if name.starts_with(['S', 's']) {
+            let text = format!("the channel has no spindle {name}");
+            return Err(Fault::new(Condition::SpindleUnknown, text, bracket.group.span));
         }
         Err(self.names.unknown(name, bracket.group.span))
     }

@@ -1,7 +1,7 @@
 //! Issues of the configuration of the controller, including Improved Position Control and feedforward.
 
 use super::about;
-use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
+use crate::diag::{Condition, Diagnostic, Severity, ValueKind, rounded};
 use crate::machine::Axis;
 use crate::machine::table::param::{Number, Param, Place};
 use crate::machine::table::{axis_drive, axis_general, axis_guard};
@@ -88,7 +88,11 @@ pub(crate) fn control(axis: &Axis, issue: &Issue, cycle: CycleTime) -> Diagnosti
             let unit = if has_rotary_motor(axis) { "N m" } else { "N" };
             about(
                 axis_drive::LOAD.place(),
-                &format!("torque at maximum acceleration {torque} {unit}, ten times the reference torque is {}", 10.0 * reference),
+                &format!(
+                    "torque at maximum acceleration {} {unit}, ten times the reference torque is {}",
+                    rounded(torque),
+                    rounded(10.0 * reference)
+                ),
                 "used as it is",
             )
             .value(ValueKind::Current, torque, unit)

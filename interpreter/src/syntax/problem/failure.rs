@@ -189,6 +189,9 @@ fn no_word(before: &str, expected: &[&str]) -> Option<(usize, String)> {
             format!("`{word}` is followed by an invalid word")
         }
         [b'L'] | [b'L', b'L'] => format!("`{word}` without the name of a program"),
+        [b'N'] | [b'N', b'0'..=b'9', ..] if before.len() == length => {
+            format!("`{word}` is not a block number")
+        }
         [b'N'] | [b'N', b'0'..=b'9', ..] => {
             format!("`{word}`: a block number must be first in its block")
         }

@@ -124,8 +124,8 @@ impl Modal {
                         report.note(Fault::new(condition, text, *span).warning());
                     }
                 }
-                _ => {
-                    let text = format!("#{} without a size", hash.name);
+                size => {
+                    let text = format!("#{} {}", hash.name, no_size(size));
                     report.note(Fault::new(Condition::Range, text, *span));
                 }
             }
@@ -152,14 +152,21 @@ impl Modal {
                     report.note(Fault::new(Condition::InsertionTooLarge, text, g.span));
                 }
                 Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
-                _ => {
-                    let text = format!("G{} without a size (I)", g.row.number);
+                size => {
+                    let text = format!("G{} {} (I)", g.row.number, no_size(size));
                     report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
                 }
             }
         }
         request
     }
+}
+
+/// What is wrong with the size in mm of a chamfer or rounding.
+fn no_size(size: Option<f64>) -> String {
+    size.map_or("without a size".to_owned(), |mm| {
+        format!("with the size {mm} mm: it must be above 0")
+    })
 }
 
 /// P-CHAN-00273 = 1: omitted values are errors (256603531, 255785355). With `#SCALE` they are refused: its page shows only
