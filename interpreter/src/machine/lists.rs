@@ -182,33 +182,7 @@ impl Reader<'_> {
     fn entry(&mut self, line: &line::Line<'_>, text: &str, file: &Arc<str>) {
         let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
         let key_at = line.location(file, word);
-        let Some(key) = Key::parse(word) else {
-            let message = format!("`{word}` is not a key, the line is ignored");
-            let hint = "write a key, at least one blank and a value; start comments with #";
-            self.say(Diagnostic::new(Condition::ListEntry, message).at(key_at).hint(hint));
-            return;
-        };
-        let Some((row, indices)) = key.resolve(self.kind) else {
-            if let Some(beyond) = key.beyond(self.kind) {
-                let message = format!("`{word}` is ignored: {beyond}");
-                let condition = match self.kind {
-                    ListKind::StartUp => Condition::ListIndexRange,
-                    _ => Condition::ListKeyUnknown,
-                };
-                self.say(
-                    Diagnostic::new(condition, message)
-                        .value(ValueKind::Identification, 1, "-")
-                        .at(key_at),
-                );
-            } else {
-                self.unknown.entry(key.shape).or_insert((0, key_at)).0 += 1;
-            }
-            return;
-        };
-        if key.empty_index {
-            let message = format!("empty index in `{word}`, read as 0");
-            self.say(Diagnostic::new(Condition::ListIndex, message).at(key_at.clone()));
-        }
+        let Some((row, indices)) = self.row_of(word, &key_at) else { return };
         let parts = line::value(row.raw, rest.trim());
         let Some(written) = parts.value else {
             let message = format!("`{word}` has no value, the line is ignored");
@@ -218,17 +192,7 @@ impl Reader<'_> {
         let value_at =
             if written.is_empty() { key_at.clone() } else { line.location(file, written) };
         if let Some(dropped) = parts.dropped {
-            let message = format!("`{dropped}` after the value of `{word}` is dropped");
-            let hint = match row.raw {
-                Raw::Flags(_) => "join flags with |: VEL | ACC",
-                Raw::Text => "put text with blanks in double quotes, start a comment with (",
-                _ => "write a number without blanks, start a comment with #",
-            };
-            self.say(
-                Diagnostic::new(Condition::ListString, message)
-                    .at(line.location(file, dropped))
-                    .hint(hint),
-            );
+            self.say(dropped_text(row, word, dropped).at(line.location(file, dropped)));
         }
         let indices = if row.repeated {
             [self.list.keys().filter(|(key, _)| *key == row.key).count() as u32, 0]
@@ -249,7 +213,45 @@ impl Reader<'_> {
         // the mark extends from the key to the end of the value
         at.length = at.column + at.length - key_at.column;
         (at.column, at.offset) = (key_at.column, key_at.offset);
-        let entry = Entry { row, indices, value, at };
+        self.take(Entry { row, indices, value, at }, key_at);
+    }
+
+    /// The parameter with this key, and its indices; a message if there is none.
+    fn row_of(&mut self, word: &str, key_at: &Location) -> Option<(&'static Row, Indices)> {
+        let Some(key) = Key::parse(word) else {
+            let message = format!("`{word}` is not a key, the line is ignored");
+            let hint = "write a key, at least one blank and a value; start comments with #";
+            self.say(Diagnostic::new(Condition::ListEntry, message).at(key_at.clone()).hint(hint));
+            return None;
+        };
+        let found = key.resolve(self.kind);
+        if found.is_none() {
+            if let Some(beyond) = key.beyond(self.kind) {
+                let message = format!("`{word}` is ignored: {beyond}");
+                let condition = match self.kind {
+                    ListKind::StartUp => Condition::ListIndexRange,
+                    _ => Condition::ListKeyUnknown,
+                };
+                self.say(
+                    Diagnostic::new(condition, message)
+                        .value(ValueKind::Identification, 1, "-")
+                        .at(key_at.clone()),
+                );
+            } else {
+                self.unknown.entry(key.shape).or_insert((0, key_at.clone())).0 += 1;
+            }
+            return None;
+        }
+        if key.empty_index {
+            let message = format!("empty index in `{word}`, read as 0");
+            self.say(Diagnostic::new(Condition::ListIndex, message).at(key_at.clone()));
+        }
+        found
+    }
+
+    /// Keeps an entry; the last one with the same key counts.
+    fn take(&mut self, entry: Entry, key_at: Location) {
+        let (row, indices) = (entry.row, entry.indices);
         if let Some((_, earlier)) = self.list.get(&(row.key, indices)) {
             let message = format!(
                 "`{}` occurs twice in this list, the value of line {} is replaced",
@@ -319,6 +321,17 @@ fn structures(shapes: &[&str]) -> String {
         named.push(format!("others ({others})"));
     }
     named.join(", ")
+}
+
+/// Text after a value, which is not read.
+fn dropped_text(row: &Row, word: &str, dropped: &str) -> Diagnostic {
+    let message = format!("`{dropped}` after the value of `{word}` is dropped");
+    let hint = match row.raw {
+        Raw::Flags(_) => "join flags with |: VEL | ACC",
+        Raw::Text => "put text with blanks in double quotes, start a comment with (",
+        _ => "write a number without blanks, start a comment with #",
+    };
+    Diagnostic::new(Condition::ListString, message).hint(hint)
 }
 
 /// 1001138 for a value that could not be read.

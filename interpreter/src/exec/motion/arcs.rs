@@ -245,66 +245,37 @@ impl MotionState {
     }
 }
 
+/// An arc in its plane, as the words of its block give it.
+struct Given {
+    arc: Arc,
+    /// By I, J and K, otherwise by a radius.
+    has_centre: bool,
+    /// The word that gives it.
+    at: Span,
+}
+
 impl Decoder {
+    /// The path of G02 and G03 from a position to the target of the block.
     pub(super) fn arc(&mut self, from: AxisVec, words: &Words<'_>, span: Span) -> Outcome<Path> {
         let from = &self.motion.independent.on_path(from);
         let target = self.motion.independent.on_path(self.geometry.coordinates.target().clone());
         let main = self.modal.plane.main_axes();
         // in a plane oblique to the axes, the arc is given in the coordinate system
-        let way = &self.motion.independent.way;
-        let image = self.geometry.image_of_plane(main, way, span)?;
+        let image = self.geometry.image_of_plane(main, &self.motion.independent.way, span)?;
         let (start, end) = match &image.tilt {
             Some(tilt) => local_ends(tilt, from, &target),
             None => (from.clone(), target.clone()),
         };
         let plane = self.geometry.axes_of_plane(image.main, span)?;
-        let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
-        let (s, e) = (in_plane(&start), in_plane(&end));
-        let ccw = (self.modal.path == PathMode::CounterClockwise) == image.keeps_sense;
-        let scale = self.geometry.scale_of_plane([main[0], main[1]], span)?;
-        let centre_words = self
-            .modal
-            .centre_words(&self.machine.channel, words, [main[0], main[1]], span)
-            .map(|word| word.map(|(value, at)| (value * scale, at)));
-        let has_centre = centre_words.iter().any(Option::is_some);
-        defined_once(words, has_centre)?;
-        if let Some((radius, _)) = words.radius {
-            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
-        }
-        let g = words.group(Group::Path).map_or(span, |g| g.span);
-        let found = if has_centre {
-            let centre = self.geometry.centre(&start, &image, centre_words, &self.modal, way);
-            let limits = &self.machine.channel.arc_centre;
-            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
-                .inspect(|arc| note_moved_centre(arc, [s, e], centre, limits, &mut self.report, g))
-        } else if let Some(radius) = self.modal.radius_mm {
-            arc::by_radius(s, e, radius * scale, ccw)
-        } else {
-            // without a centre, radius programming is expected; centre correction does not apply to it
-            let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
-            return Err(Fault::new(Condition::ArcRadiusZero, text, g)
-                .hint("write I, J, K or R; R is modal"));
-        };
-        let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(g, |(_, at)| at);
-        let mut arc = found.map_err(|e| arc_fault(e, at))?;
-        if !has_centre && arc.centre.iter().any(|x| x.abs() > LARGEST_MM) {
-            let text = "the centre of this radius is outside the data format";
-            return Err(Fault::new(Condition::CentreTooFar, text, at));
-        }
+        let Given { mut arc, has_centre, at } =
+            self.given_arc(words, &image, plane, [&start, &end], span)?;
         if let Some((pitch, at)) = words.centre[main[2]].filter(|(pitch, _)| *pitch != 0.0) {
             let height = self.geometry.height_over(image.main, [&start, &end]);
             let pitch_mm = pitch * self.modal.unit_mm() * self.geometry.scale_of_main(main[2]);
-            if height == 0.0 {
-                let text = "a pitch has no meaning without travel along the third axis";
-                self.report.note(Fault::new(Condition::Odd, text, at).warning());
-            } else {
-                arc.sweep_rad = arc::with_turns(arc.sweep_rad, height, pitch_mm);
-                if let Some(text) = other_pitch(arc.sweep_rad, height, pitch_mm) {
-                    self.report.note(Fault::new(Condition::Odd, text, at));
-                }
-            }
+            wind(&mut arc, height, pitch_mm, &mut self.report, at);
         }
         let absolute = self.modal.centre_absolute && has_centre && image.tilt.is_none();
+        let way = &self.motion.independent.way;
         self.geometry.keep_arc(&arc, &start, plane, absolute, way);
         self.geometry.last_arc.plane = image.main;
         let shape = ArcShape { plane, centre_mm: arc.centre, sweep_rad: arc.sweep_rad };
@@ -321,6 +292,66 @@ impl Decoder {
             Some(tilt) => Path::Tilted(Box::new(TiltedArc::new(arc, *tilt, from.clone(), target))),
             None => Path::Arc(arc),
         })
+    }
+
+    /// The arc by centre or radius; `plane`: the axes of its plane.
+    fn given_arc(
+        &mut self,
+        words: &Words<'_>,
+        image: &PlaneImage,
+        plane: [usize; 2],
+        [start, end]: [&AxisVec; 2],
+        span: Span,
+    ) -> Outcome<Given> {
+        let in_plane = |p: &AxisVec| [p[plane[0]], p[plane[1]]];
+        let (s, e) = (in_plane(start), in_plane(end));
+        let ccw = (self.modal.path == PathMode::CounterClockwise) == image.keeps_sense;
+        let [first, second, _] = self.modal.plane.main_axes();
+        let scale = self.geometry.scale_of_plane([first, second], span)?;
+        let centre_words = self
+            .modal
+            .centre_words(&self.machine.channel, words, [first, second], span)
+            .map(|word| word.map(|(value, at)| (value * scale, at)));
+        let has_centre = centre_words.iter().any(Option::is_some);
+        defined_once(words, has_centre)?;
+        if let Some((radius, _)) = words.radius {
+            self.modal.radius_mm = Some(radius * self.modal.unit_mm());
+        }
+        let g = words.group(Group::Path).map_or(span, |g| g.span);
+        let found = if has_centre {
+            let way = &self.motion.independent.way;
+            let centre = self.geometry.centre(start, image, centre_words, &self.modal, way);
+            let limits = &self.machine.channel.arc_centre;
+            arc::by_centre(s, e, centre, ccw, self.modal.centre_correction, limits)
+                .inspect(|arc| note_moved_centre(arc, [s, e], centre, limits, &mut self.report, g))
+        } else if let Some(radius) = self.modal.radius_mm {
+            arc::by_radius(s, e, radius * scale, ccw)
+        } else {
+            // without a centre, radius programming is expected; centre correction does not apply to it
+            let text = "neither a centre (I, J, K) nor a radius (R): the arc is not defined";
+            return Err(Fault::new(Condition::ArcRadiusZero, text, g)
+                .hint("write I, J, K or R; R is modal"));
+        };
+        let at = words.radius.or(centre_words[0]).or(centre_words[1]).map_or(g, |(_, at)| at);
+        let arc = found.map_err(|e| arc_fault(e, at))?;
+        if !has_centre && arc.centre.iter().any(|x| x.abs() > LARGEST_MM) {
+            let text = "the centre of this radius is outside the data format";
+            return Err(Fault::new(Condition::CentreTooFar, text, at));
+        }
+        Ok(Given { arc, has_centre, at })
+    }
+}
+
+/// Adds the turns of a helix with this pitch; K-0109 for a pitch that says something else than the helix does.
+fn wind(arc: &mut Arc, height_mm: f64, pitch_mm: f64, report: &mut Report, at: Span) {
+    if height_mm == 0.0 {
+        let text = "a pitch has no meaning without travel along the third axis";
+        report.note(Fault::new(Condition::Odd, text, at).warning());
+        return;
+    }
+    arc.sweep_rad = arc::with_turns(arc.sweep_rad, height_mm, pitch_mm);
+    if let Some(text) = other_pitch(arc.sweep_rad, height_mm, pitch_mm) {
+        report.note(Fault::new(Condition::Odd, text, at));
     }
 }
 
