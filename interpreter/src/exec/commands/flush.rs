@@ -43,6 +43,9 @@ fn flush(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         [word] if word.is("WAIT") => decoder.sync(Sync::FlushWait),
         // no stop while further blocks are available; the corner is not contoured (207042443)
         [word] if word.is("CONTINUE") => decoder.contour.keep_corner(),
+        [first, word, ..] if first.is("WAIT") || first.is("CONTINUE") => {
+            return Err(call.unexpected(word));
+        }
         [word, ..] => return Err(call.unexpected(word)),
     }
     Ok(())

@@ -20,7 +20,7 @@ macro_rules! own {
     Label = Kontur 15 "K-LABEL": Error ProgramAbort 3 0, "jump label not found", hint "write labels as N50: or [NAME] at the beginning of a block of the same program";
     LabelInto = Kontur 16 "K-LABEL-INTO": Error ProgramAbort 3 0, "jump into a control block", hint "jump only out of a control block, not into one";
     Endless = Kontur 17 "K-ENDLESS": Error ProgramAbort 3 0, "iteration limit reached", hint "check whether the end condition can become true";
-    Wait = Kontur 18 "K-WAIT": Warning None 1 0, "wait condition that the simulation cannot fulfil", hint "nothing outside the program is simulated";
+    Wait = Kontur 18 "K-WAIT": Warning None 1 0, "wait condition that the simulation cannot fulfil", hint "nothing outside the program is simulated", note "an error, which ends the program, for a condition of #WAIT FOR that is false";
     Unsupported = Kontur 19 "K-UNSUPPORTED": Error ProgramAbort 3 0, "valid command that is not simulated", hint "the result would be wrong without it: write the program for the simulation without it";
     FeedforwardLimit = Kontur 20 "K-G136-LIMIT": Warning None 1 0, "weight above 100 %, limited", hint "write 100 % or less; 100 % feeds the whole value forward";
     FeedforwardNegative = Kontur 21 "K-G136-NEGATIVE": Error ProgramAbort 3 0, "negative weight", hint "write a weight from 0 to 100 %";
@@ -74,7 +74,7 @@ macro_rules! own {
     GuardWithListFilter = Kontur 106 "K-GUARD-LIST-FILTER": Error ProgramAbort 3 1, "#VIB GUARD while a list configures a filter type", cause "P-AXIS-00586, P-AXIS-00153", hint "remove the filter type from the list, or use #FILTER";
     AccFactIgnored = Kontur 107 "K-ACC-FACT": Warning None 1 1, "ACC_FACT without effect", cause "it needs a valid P-AXIS-00013", hint "write getriebe[i].dynamik.a_trans_weight (P-AXIS-00013)", parameter "P-AXIS-00013";
     SpindleFeedforward = Kontur 108 "K-SPINDLE-FF": Error ProgramAbort 3 1, "feedforward combined with other spindle commands", cause "S[G135 M3 REV1000]", hint "write S[G135] in a separate bracket";
-    Odd = Kontur 109 "K-ODD": Note None 1 1, "valid but unusual", hint "check whether this is intended";
+    Odd = Kontur 109 "K-ODD": Note None 1 1, "valid but unusual", hint "check whether this is intended", note "a warning where the block does not do what its words suggest";
     ExternalCreated = Kontur 110 "K-EXTERNAL": Warning None 1 1, "external variable created by its first write", cause "V.E. variables are configured with --external", hint "check the spelling of the name";
     Fallback = Kontur 111 "K-FALLBACK": Warning None 1 1, "function replaced by a simpler one", cause "the message names the function", hint "the message states what the path does instead";
     UnequalKernels = Kontur 112 "K-ASYNCHRONOUS": Warning None 1 1, "axes of one group shaped with different delays", cause "settings of filters or Vibration Guard differ", hint "give all axes of the path the same settings";

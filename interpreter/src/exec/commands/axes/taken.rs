@@ -129,7 +129,7 @@ fn numbers_of(decoder: &Decoder, group: &Group) -> Outcome<(u32, u32)> {
         return Err(Fault::new(Condition::ExchangeNumberRange, text, at(1)));
     };
     let Some(index) = crate::exec::values::number::whole(index, 0, PLACES - 1) else {
-        let text = format!("axis index {index} is not in 0 to {}", PLACES - 1);
+        let text = format!("axis index {index} is not a whole number from 0 to {}", PLACES - 1);
         let whole = index.fract() == 0.0;
         let condition = if whole { Condition::ExchangeIndexRange } else { Condition::Range };
         return Err(Fault::new(condition, text, at(2)));
