@@ -76,6 +76,10 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         };
         if let Some(axis) = decoder.names.of_name(&name.text) {
             release(decoder, axis);
+        } else if !decoder.machine.axes.iter().any(|axis| name.is(axis.name())) {
+            let text =
+                format!("`{}` is not an axis of the channel: nothing is released", name.text);
+            decoder.report.note(Fault::new(Condition::Ignored, text, item.span));
         }
     }
     exchanged(decoder);

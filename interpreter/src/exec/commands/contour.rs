@@ -290,6 +290,7 @@ fn points(
 ) -> Outcome<Option<Group>> {
     let Some(group) = group else { return Ok(None) };
     let mut rest = Group { items: Vec::new(), span: group.span };
+    let mut written = [false; 3];
     for item in &group.items {
         let main_axis = |name: &str| decoder.names.of_name(name).filter(|axis| *axis < 3);
         let point = match &item.kind {
@@ -307,6 +308,10 @@ fn points(
             rest.items.push(item.clone());
             continue;
         };
+        if std::mem::replace(&mut written[axis], true) {
+            let text = format!("#CONTOUR MODE: {} is given twice", decoder.names.name(axis));
+            return Err(Fault::new(Condition::DuplicateKey, text, item.span));
+        }
         if !decoder.geometry.coordinates.frame().is_identity() {
             let what = "an interim point of #CONTOUR MODE in a frame";
             return Err(Fault::unsupported(what, item.span));

@@ -49,6 +49,7 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
             )
         }
         Some(false) => {
+            call.no_bracket_beside("OFF")?;
             decoder.geometry.coordinates.set_rotation(None);
             Ok(())
         }
@@ -191,6 +192,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             Ok(())
         }
         (Some(false), [word], _) if word.is("ALL") => {
+            call.no_bracket_beside("OFF ALL")?;
             decoder.geometry.coordinates.clear_systems();
             Ok(())
         }
@@ -207,6 +209,7 @@ pub(super) fn coordinate_system(decoder: &mut Decoder, call: &Call<'_>) -> Outco
             Ok(())
         }
         (_, [word, ..], _) => Err(call.unexpected(word)),
+        (Some(false), ..) => call.no_bracket_beside("OFF"),
         _ => Err(Fault::new(Condition::CoordinateSystemSyntax, "#CS needs ON or OFF", call.span())),
     }
 }

@@ -54,6 +54,7 @@ fn vector_limit(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match &call.command.tail[..] {
         [] => {}
         [word] if word.is("ALL") => {
+            call.no_bracket_beside(if on { "ON ALL" } else { "OFF ALL" })?;
             let vector = if on { listed } else { VectorLimits::default() };
             decoder.motion.limits.change_vector([true, true], |v| *v = vector);
             return Ok(());

@@ -148,6 +148,13 @@ impl Call<'_> {
         Fault::new(Condition::TokenUnknown, text, word.span)
     }
 
+    /// 21220 for a bracket beside a word with which the command reads none.
+    pub(in crate::exec) fn no_bracket_beside(&self, word: &str) -> Outcome<()> {
+        let Some(group) = self.command.groups.first() else { return Ok(()) };
+        let text = format!("{} {word} does not take a bracket", self.title());
+        Err(Fault::new(Condition::TokenUnknown, text, group.span))
+    }
+
     /// Checks that there are no further words, neither after the name nor after ON and OFF.
     pub(in crate::exec) fn no_more_words(&self) -> Outcome<()> {
         match self.rest.first().or(self.command.tail.first()) {

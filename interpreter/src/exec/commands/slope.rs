@@ -47,6 +47,7 @@ fn slope(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match call.rest {
         [] => {}
         [word] if word.is("DEFAULT") => {
+            call.no_bracket_beside("DEFAULT")?;
             default(decoder);
             return Ok(());
         }

@@ -121,13 +121,13 @@ pub(super) fn word(text: &str) -> String {
     text.chars().take_while(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase()
 }
 
-/// Whether a line contains M02 or M30 outside comments.
+/// Whether a line ends the main program: M02, M30, or M17 or M29 outside comments.
 pub(super) fn ends_program(text: &str) -> bool {
     let bytes = text.as_bytes();
     memchr::memchr2_iter(b'M', b'm', bytes).any(|i| {
         let rest = &text[i + 1..];
         let length = digits(rest);
-        matches!(rest[..length].trim_start_matches('0'), "2" | "30") && is_code(text, i)
+        matches!(rest[..length].trim_start_matches('0'), "2" | "30" | "17" | "29") && is_code(text, i)
     })
 }
 
