@@ -329,6 +329,14 @@ impl Planner {
         self.output(self.setpoint.k + count as u64);
     }
 
+    /// Lets the next motion begin a share of a cycle (0 to 1) after the present one; only at rest. Its setpoints are those of its
+    /// profile at these moments.
+    pub fn begin_within_cycle(&mut self, share: f64) {
+        let start = &mut self.plan.start;
+        let tick = Moment::tick(start.moment.origin.max(self.setpoint.k));
+        start.moment = tick.plus(share * self.cycle.seconds());
+    }
+
     /// Repeats the present position for one more cycle; only at rest.
     pub fn hold(&mut self, limit: SpeedLimit) {
         self.setpoint.k += 1;

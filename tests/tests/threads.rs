@@ -65,12 +65,13 @@ fn tapping_as_fast_as_the_spindle_can() {
     assert!(acc > 100.0 && acc <= 2000.0 * (1.0 + 1e-6), "{acc} deg/s2");
 }
 
-/// Position of a thread: Z minus the pitch for every revolution, within one pitch, in the steady part of the lines.
+/// Position of a thread before the filters, which delay all passes alike: Z minus the pitch for every revolution, within one pitch, in
+/// the steady part of the lines.
 fn thread(run: &Run, line: u32, pitch: f64, sense: f64) -> f64 {
-    let all = together(run, line..=line);
     let (low, high) = (-30.0, -10.0);
-    let steady: Vec<f64> = all
-        .iter()
+    let steady: Vec<f64> = run
+        .of_line(line)
+        .map(|r| (r.axes[Z].ipo, r.axes[SPINDLE].ipo))
         .filter(|(z, _)| (low..=high).contains(z))
         .map(|(z, deg)| z + sense * pitch * deg / 360.0)
         .collect();
@@ -190,6 +191,57 @@ fn passes_of_a_thread_lie_in_each_other() {
                 let last = run.of_line(line).next_back().unwrap().axes[Z].set;
                 assert!((last - z).abs() < 1e-9, "line {line}: {last}");
             }
+        }
+    }
+}
+
+/// A pass begins at its start angle, whatever rest `AX_DEV` asks for at the corner before it.
+#[test]
+fn passes_lie_in_each_other_behind_any_corner() {
+    for (freq, ax_dev) in [(15.0, 0.01), (4.0, 0.01), (2.0, 0.001)] {
+        let text = format!(
+            "%P\nM3 S500\n#VIB GUARD ON [MODE=4 FREQ={freq} AX_DEV={ax_dev}]\nG01 Z9 F6000\nG33 Z-50 K1.5\nG01 X20 Z9\nG33 Z-50\nG00 Z9\n\
+             G01 X10\nG33 Z-50\nG00 Z10\nZ9\nG04 0.0731\nG33 Z-50\nG01 X0 Z9\nZ9.1\nZ9\nG33 Z-50\nM5\nM30\n"
+        );
+        let run = run(&text, &[]);
+        let ids: Vec<_> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
+        assert_eq!(ids, ["K-0112"], "{text}");
+        let passes = [5, 7, 10, 14, 18].map(|line| thread(&run, line, 1.5, 1.0));
+        for pass in passes {
+            assert!(apart(pass, passes[0], 1.5) < 1e-6, "{freq} Hz: {passes:?}");
+        }
+    }
+}
+
+/// `AX_DEV` is kept at the corner behind a thread, wherever between two cycles the thread begins: on the polyline through the
+/// set points, the corner is reached and nothing lies beside both lines by more.
+#[test]
+fn the_tolerance_holds_behind_a_thread() {
+    const SHARES: u32 = 8;
+    for (slope, mode, ax_dev) in
+        [("TRAPEZ", 4, 0.01), ("STEP", 1, 0.005), ("SIN2", 2, 0.01), ("HSC", 3, 0.02)]
+    {
+        for share in 0..SHARES {
+            // 3.6 deg in a cycle
+            let deg = 3.6 * f64::from(share) / f64::from(SHARES);
+            let text = format!(
+                "%P\n#SLOPE [TYPE={slope}]\n#VIB GUARD ON [MODE={mode} FREQ=15 AX_DEV={ax_dev}]\nM3 S600\nG33 Z-5 K1.5 S.OFFSET={deg}\n\
+                 G01 X20 F3000\nM30\n"
+            );
+            let run = run(&text, &[]);
+            let set: Vec<_> =
+                run.records.iter().map(|r| (r.axes[0].set, r.axes[Z].set + 5.0)).collect();
+            let beside = set.iter().map(|(x, z)| x.abs().min(z.abs())).fold(0.0, f64::max);
+            let between = set.windows(2).flat_map(|w| {
+                let [(x, z), (to_x, to_z)] = [w[0], w[1]];
+                (0..50).map(move |i| {
+                    let t = f64::from(i) / 50.0;
+                    (x + (to_x - x) * t).abs().max((z + (to_z - z) * t).abs())
+                })
+            });
+            let missed = between.fold(f64::INFINITY, f64::min);
+            let most = ax_dev * (1.0 + 1e-9);
+            assert!(beside <= most && missed <= most + 1e-4, "{text}{beside} {missed}");
         }
     }
 }

@@ -261,6 +261,9 @@ pub(crate) enum SpindleState {
         deg: f64,
         /// Whether the override has no effect on the thread.
         full_override: bool,
+        /// The filters of the axes must have settled before, so that the thread does not begin later than the mark because of
+        /// what came before it (`AX_DEV`).
+        settled: bool,
     },
 }
 

@@ -61,12 +61,6 @@ impl Simulation {
         for (p, position) in positions.iter_mut().enumerate() {
             *position += if alone { self.independent.way_mm(p, k) } else { 0.0 };
         }
-        if self.thread.delay > 0.0 {
-            for (p, position) in positions.iter_mut().enumerate() {
-                let before = std::mem::replace(&mut self.thread.planned[p], *position);
-                *position += (before - *position) * self.thread.delay;
-            }
-        }
         if alone {
             self.independent.follow(&mut positions);
         }

@@ -107,8 +107,7 @@ impl Simulation {
         matches!(self.phase, Phase::Running)
             && self.frozen.iter().all(Option::is_none)
             && !self.is_held
-            && self.thread.cut.is_none()
-            && self.thread.delay <= 0.0
+            && self.thread.is_none()
             && self.probing.is_none()
             && self.banding.is_none()
             && self.independent.is_unused()

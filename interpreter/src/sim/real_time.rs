@@ -43,7 +43,7 @@ impl Simulation {
 
     /// K-0132, for each thread once for a feedhold and once for an override: the path does not follow the spindle.
     pub(super) fn watch_thread(&mut self) {
-        let Some(thread) = &mut self.thread.cut else { return };
+        let Some(thread) = &mut self.thread else { return };
         let Some(why) = self.inputs.changes_speed(thread.full_override) else { return };
         let told = match why {
             SpeedChange::Feedhold => &mut thread.held,

@@ -9,7 +9,7 @@ use super::messages::Messages;
 use super::program::Program;
 use super::smoothing::Smoothing;
 use super::spindle::Spindle;
-use super::state::{Batch, BlockRefs, Phase, Queue, Simulation, Threading, TimeLimit, Times};
+use super::state::{Batch, BlockRefs, Phase, Queue, Simulation, TimeLimit, Times};
 use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use crate::diag::Diagnostic;
@@ -76,11 +76,7 @@ impl Simulation {
             phase: Phase::Start,
             record: CycleRecord { axes: records, ..CycleRecord::default() },
             path_position: start[..n].iter().copied().collect(),
-            thread: Threading {
-                delay: 0.0,
-                cut: None,
-                planned: start[..n].iter().copied().collect(),
-            },
+            thread: None,
             limit,
             times: Times::default(),
             probing: None,

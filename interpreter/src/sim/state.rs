@@ -118,17 +118,6 @@ impl BlockRefs {
     }
 }
 
-/// Threads of G33.
-#[derive(Debug)]
-pub(in crate::sim) struct Threading {
-    /// The share of a cycle by which the axes lag the planner, to be synchronous with the mark of the spindle.
-    pub(in crate::sim) delay: f64,
-    /// The thread that is cut, with conditions that may break it.
-    pub(in crate::sim) cut: Option<Thread>,
-    /// In a thread, the set positions of the path axes in the previous cycle as planned.
-    pub(in crate::sim) planned: AxisVec,
-}
-
 /// The limit of the program time.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::sim) struct TimeLimit {
@@ -178,7 +167,7 @@ pub(crate) struct Simulation {
     pub(in crate::sim) batch: Batch,
     /// Set positions of the path axes in the previous cycle, before their filters.
     pub(in crate::sim) path_position: AxisVec,
-    pub(in crate::sim) thread: Threading,
+    pub(in crate::sim) thread: Option<Thread>,
     pub(in crate::sim) times: Times,
     /// The measuring run under way.
     pub(in crate::sim) probing: Option<Probing>,

@@ -168,17 +168,13 @@ impl Simulation {
             return;
         };
         if let Some(AwaitedMark { spindle, deg, full_override }) = wait.mark() {
-            self.thread.cut = Some(Thread { full_override, held: false, scaled: false });
+            self.thread = Some(Thread { full_override, held: false, scaled: false });
             let share = self.spindles.get(spindle).and_then(|s| s.mark_ahead(deg, self.cycle));
-            self.thread.delay = share.unwrap_or(0.0);
-            self.thread.planned.copy_from_slice(&self.path_position);
+            self.planner.begin_within_cycle(share.unwrap_or(0.0));
         }
         match wait.into_action() {
             wait::Action::None => {}
-            wait::Action::ThreadEnd => {
-                self.thread.delay = 0.0;
-                self.thread.cut = None;
-            }
+            wait::Action::ThreadEnd => self.thread = None,
             wait::Action::Halted => self.call_at_halt(),
             wait::Action::Resume => self.resume(),
             wait::Action::Shaping(setup) => self.swap_kernels(&setup),

@@ -104,8 +104,7 @@ impl Wait {
         let (until, action) = match sync {
             Sync::ExactStop { alone } => (Until::InPosition { alone }, Action::None),
             Sync::Spindle { spindle, state } => (Until::Spindle(spindle, state), Action::None),
-            // the axis delay expires in the first cycle of rest
-            Sync::ThreadEnd => (Until::Cycles(1, Rest::Spindle), Action::ThreadEnd),
+            Sync::ThreadEnd => (Until::Now, Action::ThreadEnd),
             Sync::Stop | Sync::Halt | Sync::ProgramStop { .. } => (Until::Now, Action::None),
             Sync::Dwell { seconds } => (cycles(seconds, Rest::Dwell), Action::None),
             Sync::Technology { seconds } => (cycles(seconds, Rest::Technology), Action::None),
@@ -182,6 +181,7 @@ impl Wait {
                 !parts.independent.is_moving(p)
             }
             (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
+            (Until::Spindle(_, SpindleState::Mark { settled, .. }), Driver::Path(_)) => *settled,
             (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
             (Until::Now | Until::Cycles(..) | Until::Spindle(..), Driver::Path(_))
             | (_, Driver::Spindle(_) | Driver::Standing) => false,
@@ -268,18 +268,15 @@ impl Wait {
         self.patience.is_over(worst.distance_mm, settling_s, cycle).then_some((i, worst))
     }
 
-    /// Whether its cycles belong to its own block rather than to the motion before; in the cycle at the end of a thread
-    /// the axes complete the thread.
+    /// Whether its cycles belong to its own block rather than to the motion before.
     pub(super) fn is_of_its_own_block(&self) -> bool {
-        let waits =
-            matches!(self.until, Until::Cycles(..) | Until::Spindle(..) | Until::Arrived(_));
-        waits && !matches!(self.action, Action::ThreadEnd)
+        matches!(self.until, Until::Cycles(..) | Until::Spindle(..) | Until::Arrived(_))
     }
 
     /// The spindle mark that is awaited.
     pub(super) fn mark(&self) -> Option<AwaitedMark> {
         match self.until {
-            Until::Spindle(spindle, SpindleState::Mark { deg, full_override }) => {
+            Until::Spindle(spindle, SpindleState::Mark { deg, full_override, .. }) => {
                 Some(AwaitedMark { spindle, deg, full_override })
             }
             _ => None,

@@ -37,8 +37,8 @@ impl Planner {
         // a block with zero speed ends the path before it
         let barred = window.len() < self.plan.segments.len();
         let mut start = self.plan.start.moment;
-        if self.plan.is_at_rest() {
-            start = Moment::tick(start.origin.max(self.setpoint.k));
+        if self.plan.is_at_rest() && start.origin < self.setpoint.k {
+            start = Moment::tick(self.setpoint.k);
         }
         let end = if barred {
             SpeedLimit::Feed

@@ -162,7 +162,9 @@ impl Decoder {
                 self.report.note_once(Subject::Only, fault);
             }
             let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
-            let state = SpindleState::Mark { deg, full_override: block.full_override };
+            let settled = block.tolerance.ax_dev_mm.is_some();
+            let full_override = block.full_override;
+            let state = SpindleState::Mark { deg, full_override, settled };
             self.contour.continue_along(&block.path);
             self.sync(Sync::Spindle { spindle: index, state });
             self.motion.threads.cutting = true;

@@ -127,7 +127,8 @@ pub(super) fn ends_program(text: &str) -> bool {
     memchr::memchr2_iter(b'M', b'm', bytes).any(|i| {
         let rest = &text[i + 1..];
         let length = digits(rest);
-        matches!(rest[..length].trim_start_matches('0'), "2" | "30" | "17" | "29") && is_code(text, i)
+        matches!(rest[..length].trim_start_matches('0'), "2" | "30" | "17" | "29")
+            && is_code(text, i)
     })
 }
 
