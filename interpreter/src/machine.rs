@@ -90,6 +90,7 @@ pub struct Machine {
 
 /// Whether a position in mm (deg) is outside software limits. A position closer to a limit than half of the increment in
 /// which both are given counts as being at it, for instance after a thousand incremental steps.
+#[inline]
 pub(crate) fn is_outside(position_mm: f64, (least_mm, most_mm): (f64, f64)) -> bool {
     const HALF_INCREMENT_MM: f64 = ExactStopConfig::HALF_INCREMENT_MM;
     !(least_mm - HALF_INCREMENT_MM..=most_mm + HALF_INCREMENT_MM).contains(&position_mm)

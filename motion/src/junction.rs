@@ -108,36 +108,48 @@ fn kink_weight(
     }
 }
 
-/// Velocity jump in mm/s that a kink between two blocks may cause in one axis.
-pub(crate) fn admissible_jump(
-    from: &Block,
-    to: &Block,
-    i: usize,
+/// The velocity jumps that a kink between two blocks may cause.
+pub(crate) struct Jumps<'a> {
+    from: &'a Block,
+    /// The block after the kink, unless its limits are those of the block before.
+    to: Option<&'a Block>,
     cycle: CycleTime,
     kernel_active: bool,
-) -> f64 {
-    let t = cycle.seconds();
-    // blocks with shared limits have the same jump
-    let alike = Arc::ptr_eq(&from.dynamics, &to.dynamics)
-        && from.slope == to.slope
-        && is_rapid(from) == is_rapid(to)
-        && from.tolerance.acc_fact.to_bits() == to.tolerance.acc_fact.to_bits();
-    [from, to]
-        .into_iter()
-        .take(if alike { 1 } else { 2 })
-        .map(|b| {
-            let fact = if kernel_active { b.tolerance.acc_fact } else { 1.0 };
-            let acc = if b.dynamics.transition_jerk == TransitionJerkMode::DirectJerk
-                && b.slope.kind != SlopeKind::Step
-            {
-                let axis = &b.dynamics.axes[i];
-                (axis.j_trans_kink_mm_s3 * t).min(contour_acceleration(axis, b.slope, is_rapid(b)))
-            } else {
-                kink_acceleration(b, i, cycle, fact)
-            };
-            acc * t
-        })
-        .fold(f64::INFINITY, f64::min)
+}
+
+impl<'a> Jumps<'a> {
+    pub(crate) fn between(
+        from: &'a Block,
+        to: &'a Block,
+        cycle: CycleTime,
+        kernel_active: bool,
+    ) -> Self {
+        let alike = Arc::ptr_eq(&from.dynamics, &to.dynamics)
+            && from.slope == to.slope
+            && is_rapid(from) == is_rapid(to)
+            && from.tolerance.acc_fact.to_bits() == to.tolerance.acc_fact.to_bits();
+        Self { from, to: (!alike).then_some(to), cycle, kernel_active }
+    }
+
+    /// The jump of one axis in mm/s.
+    pub(crate) fn of(&self, i: usize) -> f64 {
+        let jump = self.in_block(self.from, i);
+        self.to.map_or(jump, |to| jump.min(self.in_block(to, i)))
+    }
+
+    fn in_block(&self, b: &Block, i: usize) -> f64 {
+        let t = self.cycle.seconds();
+        let fact = if self.kernel_active { b.tolerance.acc_fact } else { 1.0 };
+        let acc = if b.dynamics.transition_jerk == TransitionJerkMode::DirectJerk
+            && b.slope.kind != SlopeKind::Step
+        {
+            let axis = &b.dynamics.axes[i];
+            (axis.j_trans_kink_mm_s3 * t).min(contour_acceleration(axis, b.slope, is_rapid(b)))
+        } else {
+            kink_acceleration(b, i, self.cycle, fact)
+        };
+        acc * t
+    }
 }
 
 /// Velocity in mm/s at a kink with the tangents `out` of the block before and `into` of the block after it.
@@ -149,8 +161,10 @@ pub(crate) fn kink_velocity(
     cycle: CycleTime,
     kernel_active: bool,
 ) -> f64 {
+    let jumps = Jumps::between(from, to, cycle, kernel_active);
     let mut v = f64::INFINITY;
     let (mut dot, mut n_out, mut n_in, mut jump2) = (0.0, 0.0, 0.0, 0.0);
+    let into = &into[..out.len()];
     for i in 0..out.len() {
         let du = (into[i] - out[i]).abs();
         dot += into[i] * out[i];
@@ -158,7 +172,7 @@ pub(crate) fn kink_velocity(
         n_in += into[i] * into[i];
         jump2 += du * du;
         if du > TANGENT {
-            v = v.min(admissible_jump(from, to, i, cycle, kernel_active) / du);
+            v = v.min(jumps.of(i) / du);
         }
     }
     // a reversal is a stop: the axes pass through zero speed there in any case

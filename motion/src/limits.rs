@@ -32,9 +32,9 @@ pub(crate) use slope::SlopeTable;
 pub struct PathExtremes {
     /// `max |q_i'|`.
     pub first: AxisVec,
-    /// `max |q_i''|` in 1/mm.
+    /// `max |q_i''|` in 1/mm; empty for a line, where there are none.
     pub second: AxisVec,
-    /// `max |q_i'''|` in 1/mm2.
+    /// `max |q_i'''|` in 1/mm2; empty for a line.
     pub third: AxisVec,
     /// Lengths of the vectors `q''` in 1/mm and `q'''` in 1/mm2: the largest values on arcs, upper bounds on curves
     /// (the axes reach their maxima at different places).
@@ -111,7 +111,7 @@ impl PathExtremes {
                 for i in 0..n {
                     shares[i] = direction[i].abs();
                 }
-                let (second, third) = (AxisVec::zeros(n), AxisVec::zeros(n));
+                let (second, third) = (AxisVec::default(), AxisVec::default());
                 Self { first, second, third, lengths: [0.0; 2] }
             }
             Path::Arc(arc) => arc_extremes(arc),
@@ -132,15 +132,17 @@ pub(crate) fn weakest(
     share: &[f64],
     limit: impl Fn(&AxisDynamics) -> f64,
 ) -> f64 {
-    least(axes.iter().map(limit), share)
+    let n = axes.len().min(share.len());
+    least(&share[..n], |i| limit(&axes[i]))
 }
 
-/// As [`weakest`], for limits listed by axis.
-fn least(limits: impl Iterator<Item = f64>, share: &[f64]) -> f64 {
+/// As [`weakest`], for limits by the index of the axis.
+#[inline]
+fn least(share: &[f64], limit: impl Fn(usize) -> f64) -> f64 {
     let mut least = f64::INFINITY;
-    for (limit, u) in limits.zip(share) {
+    for (i, u) in share.iter().enumerate() {
         if *u > 0.0 {
-            least = least.min(limit / u);
+            least = least.min(limit(i) / u);
         }
     }
     least

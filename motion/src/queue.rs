@@ -131,6 +131,31 @@ impl Queued {
         }
     }
 
+    /// Writes this block over one that nobody has any more, and returns the programmed block of that one.
+    ///
+    /// Value by value: replaced as a whole, both would be copied.
+    pub(crate) fn put(self, place: &mut Self) -> Box<Block> {
+        let Self {
+            block,
+            ends,
+            offset,
+            length,
+            speeds,
+            velocity,
+            ceiling,
+            end_mm_s,
+            slope,
+            bend,
+            ball,
+            goes_on,
+        } = self;
+        (place.ends, place.slope, place.ball) = (ends, slope, ball);
+        (place.offset, place.length, place.bend, place.goes_on) = (offset, length, bend, goes_on);
+        place.speeds = speeds;
+        (place.velocity, place.ceiling, place.end_mm_s) = (velocity, ceiling, end_mm_s);
+        std::mem::replace(&mut place.block, block)
+    }
+
     /// The block under a real-time override.
     pub(crate) fn rated(self: &Arc<Self>, ratios: &Override) -> Arc<Self> {
         let (velocity, ceiling) = rated(&self.block, &self.speeds, ratios);

@@ -388,6 +388,11 @@ impl Contour {
         faults
     }
 
+    /// Whether there are extents or violations that have not been taken, as few motions have them.
+    pub(super) fn has_to_report(&self) -> bool {
+        !self.driven.is_empty() || !self.violations.is_empty()
+    }
+
     /// Extents of compensated motions since the last call.
     pub(super) fn take_driven(&mut self) -> Vec<Driven> {
         std::mem::take(&mut self.driven)

@@ -94,7 +94,8 @@ impl SlopeTable {
         }
         let mut weakest = [f64::INFINITY; ROWS];
         for (weakest, row) in weakest.iter_mut().zip(&self.rows) {
-            *weakest = least(row.iter().copied(), &x.first);
+            let row = &row[..x.first.len()];
+            *weakest = least(&x.first, |i| row[i]);
         }
         let vector = &d.vector;
         let [acc, dec] = self.plateaus.map(|row| weakest[row]);
@@ -112,7 +113,14 @@ impl SlopeTable {
             combined.max(if of_main_axes { self.longest_of_main_axes(k, x) } else { 0.0 })
         };
         let constant_ramp_time = self.slope.keeps_ramp_times() && !self.rapid;
-        let ramps = [ramp(0), ramp(1), ramp(2), ramp(3)];
+        let pair = |k: usize| {
+            let first = ramp(k);
+            // the same row gives the same time
+            let same = self.jerks[k] == self.jerks[k + 1];
+            (first, if same { first } else { ramp(k + 1) })
+        };
+        let ((t1, t2), (t3, t4)) = (pair(0), pair(2));
+        let ramps = [t1, t2, t3, t4];
         SlopeLimits::Ramped(RampedLimits::new(shape, constant_ramp_time, acc, dec, ramps))
     }
 }

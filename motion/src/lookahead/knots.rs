@@ -37,7 +37,7 @@ impl Window<'_> {
             last = *here;
         }
         // at a boundary that merely divides a line there is nothing to decide, and a hill may extend across it
-        let divides = |b: usize| b > 0 && b < n && self.only_divides(b);
+        let divides: Vec<bool> = (0..=n).map(|b| b > 0 && b < n && self.only_divides(b)).collect();
         // whether the part of a line between two boundaries has a hill
         let own_hill = |from: usize, to: usize| {
             let v = square[from].max(square[to]).sqrt();
@@ -47,7 +47,7 @@ impl Window<'_> {
         // the two ends of a rounded corner have the same limit up to rounding
         let lowest = |i: usize, neighbour: usize| square[i] <= square[neighbour] * (1.0 + ALIKE);
         let is_minimum = |i: usize| {
-            if divides(i)
+            if divides[i]
                 || knot[i]
                 || plain[i]
                 || !blocks[i].plans_across
@@ -57,11 +57,11 @@ impl Window<'_> {
                 return false;
             }
             let mut begin = i - 1;
-            while divides(begin) {
+            while divides[begin] {
                 begin -= 1;
             }
             let mut end = i + 1;
-            while divides(end) {
+            while divides[end] {
                 end += 1;
             }
             (lowest(i, begin) || own_hill(begin, i)) && (lowest(i, end) || own_hill(i, end))

@@ -14,6 +14,9 @@ use std::ops::Deref;
 /// them.
 const UNEVEN: f64 = 0.01;
 
+/// Relative difference from which on a speed exceeds a limit; less is rounding.
+const EXCEEDED: f64 = 1e-9;
+
 /// Blocks `first..end` between two knots.
 pub(super) struct Stretch<'a> {
     pub(super) first: usize,
@@ -213,7 +216,13 @@ pub(super) fn most_exceeded(
     s: &Stretch<'_>,
     profile: &Profile,
 ) -> Option<usize> {
-    let mut worst = (1.0 + 1e-9, None);
+    // a profile whose peak is below every limit needs no look at the boundaries
+    let inside = caps[s.first + 1..s.end].iter().chain(&feeds[s.first..s.end]);
+    let lowest = inside.map(|cap| cap.v_mm_s).fold(f64::INFINITY, f64::min);
+    if profile.peak() <= lowest * (1.0 + 0.5 * EXCEEDED) {
+        return None;
+    }
+    let mut worst = (1.0 + EXCEEDED, None);
     let mut at = 0.0;
     let mut before = profile.at(0.0).v_mm_s;
     for i in s.first..s.end {
@@ -241,4 +250,62 @@ pub(super) fn most_exceeded(
         before = behind;
     }
     worst.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cap::SpeedLimit;
+    use crate::example::{Arc, block};
+    use crate::lookahead::outline::follow;
+    use kontur_filters::time::CycleTime;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A limit counts as exceeded if and only if one of many sampled speeds is above it, whether it is far below the peak,
+        /// close to it or above it.
+        #[test]
+        fn exceeded_is_what_samples_exceed(
+            lengths in prop::collection::vec(0.5..4.0f64, 1..8),
+            ratios in prop::collection::vec(prop_oneof![Just(1.0), 0.3..1.5f64, 0.98..1.02f64], 16),
+        ) {
+            let cycle = CycleTime::from_us(1000).unwrap();
+            let n = lengths.len();
+            let mut x = 0.0;
+            let blocks = (1..).zip(&lengths).map(|(seq, length)| {
+                let from = x;
+                x += length;
+                Arc::new(Queued::new(block(seq, [from, 0.0], [x, 0.0], 1000.0), cycle))
+            });
+            let blocks: Vec<Arc<Queued>> = blocks.collect();
+            let mut outlines = Vec::new();
+            follow(&mut outlines, &blocks);
+            let slope = Weakest::One(&blocks[0].slope);
+            let s = Stretch { first: 0, end: n, length: x, feed: 1000.0, slope };
+            let profile = s.profile(0.0, 0.0).unwrap();
+            let samples = |i: u32| profile.at(profile.duration() * f64::from(i) / 20_000.0);
+            let samples: Vec<_> = (0..=20_000).map(samples).collect();
+            let fastest = samples.iter().map(|state| state.v_mm_s).fold(0.0, f64::max);
+            let cap = |ratio: &f64| Cap::new(ratio * fastest, SpeedLimit::Corner);
+            let (feeds, caps): (Vec<Cap>, Vec<Cap>) =
+                (ratios[..n].iter().map(cap).collect(), ratios[8..=8 + n].iter().map(cap).collect());
+            let (mut from, mut worst) = (0.0, 0.0_f64);
+            for i in 0..n {
+                let to = from + lengths[i];
+                // neighbouring samples on both sides of the ends
+                let first = samples.partition_point(|state| state.s_mm < from).saturating_sub(1);
+                let last = samples.partition_point(|state| state.s_mm <= to).min(20_000);
+                let inside = samples[first..=last].iter().map(|state| state.v_mm_s).fold(0.0, f64::max);
+                worst = worst.max(inside / feeds[i].v_mm_s);
+                if i + 1 < n {
+                    worst = worst.max(samples[last].v_mm_s / caps[i + 1].v_mm_s);
+                }
+                from = to;
+            }
+            // a single block has no boundary inside
+            prop_assume!((worst - 1.0).abs() > 2e-3);
+            let exceeded = most_exceeded(&outlines, &feeds, &caps, &s, &profile);
+            prop_assert_eq!(exceeded.is_some(), n > 1 && worst > 1.0);
+        }
+    }
 }

@@ -16,8 +16,10 @@ pub struct LinePath {
 /// Length of the difference `end - start` over the feed axes, or over all axes if no feed axis moves.
 pub(super) fn feed_length(start: &[f64], end: &[f64], feed_axes: &[bool]) -> f64 {
     let (mut feed, mut all) = (0.0, 0.0);
-    for (i, (a, b)) in start.iter().zip(end).enumerate() {
-        let square = (b - a) * (b - a);
+    let n = start.len();
+    let end = &end[..n];
+    for i in 0..n {
+        let square = (end[i] - start[i]) * (end[i] - start[i]);
         all += square;
         if feed_axes.get(i).copied().unwrap_or(true) {
             feed += square;

@@ -6,7 +6,7 @@
 
 use super::Segment;
 use crate::cap::{Cap, SpeedLimit};
-use crate::junction::{TANGENT, admissible_jump};
+use crate::junction::{Jumps, TANGENT};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use std::collections::VecDeque;
@@ -43,11 +43,11 @@ pub(super) fn lower_caps(segments: &mut VecDeque<Segment>, cycle: CycleTime, ker
         }
         kinks += 1;
         let mut together = f64::INFINITY;
+        let jumps = Jumps::between(&from.block, &to.block, cycle, kernel_active);
         for i in 0..from.ends.tangent_out.len() {
             let turn = (to.ends.tangent_in[i] - from.ends.tangent_out[i]).abs();
             if turn > 0.0 {
-                let jump = admissible_jump(&from.block, &to.block, i, cycle, kernel_active);
-                together = together.min(jump / turn);
+                together = together.min(jumps.of(i) / turn);
             }
         }
         let v = if kinks == KINKS { (together * apart).sqrt() } else { together }.max(apart);

@@ -39,8 +39,7 @@ impl Spent {
             self.left.push_front(first);
             return Arc::new(queued);
         };
-        let before = std::mem::replace(place, queued);
-        self.blocks.add(before.block);
+        self.blocks.add(queued.put(place));
         first
     }
 }

@@ -2,6 +2,7 @@
 
 use super::ramp::{RampShape, RampState};
 use super::roots::increasing_root;
+use super::row::State;
 use std::f64::consts::FRAC_1_PI;
 
 /// Relative size of the last step to a root; the error is its square.
@@ -80,6 +81,21 @@ impl Phase {
         RampShape::Sin2.rise(self.j * sine.whole, sine.whole, x)
     }
 
+    /// The state `t` s after the start, a time outside the phase counting as its start or end; rounding must not lead beyond
+    /// the path length `ahead` at which the next phase begins, nor backwards at a stop.
+    #[inline]
+    pub(super) fn state_after(&self, t: f64, ahead: f64) -> State {
+        let t = t.clamp(0.0, self.t);
+        let (way, v, a) = self.way_after(t);
+        State {
+            s_mm: (self.s + way).min(ahead),
+            v_mm_s: v.max(0.0),
+            a_mm_s2: a,
+            j_mm_s3: self.jerk_after(t),
+        }
+    }
+
+    #[inline]
     pub(crate) fn end(&self) -> Self {
         self.after(self.t)
     }

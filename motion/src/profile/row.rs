@@ -169,17 +169,14 @@ impl Profile {
         if t >= self.duration {
             return self.end;
         }
-        let next = self.phases.partition_point(|p| p.0 <= t).max(1);
-        let Some((start, phase)) = self.phases.get(next - 1) else { return self.end };
-        let t = (t - start).clamp(0.0, phase.t);
-        let now = phase.after(t);
-        let ahead = self.phases.get(next).map_or(self.end.s_mm, |p| p.1.s);
-        State {
-            // rounding must not lead beyond the next phase, nor backwards at a stop
-            s_mm: now.s.min(ahead),
-            v_mm_s: now.v.max(0.0),
-            a_mm_s2: now.a,
-            j_mm_s3: phase.jerk_after(t),
+        match &self.phases {
+            Phases::One([(start, phase)]) => phase.state_after(t - start, self.end.s_mm),
+            Phases::Shared(phases) => {
+                let next = phases.partition_point(|p| p.0 <= t).max(1);
+                let Some((start, phase)) = phases.get(next - 1) else { return self.end };
+                let ahead = phases.get(next).map_or(self.end.s_mm, |p| p.1.s);
+                phase.state_after(t - start, ahead)
+            }
         }
     }
 

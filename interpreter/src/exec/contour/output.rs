@@ -12,6 +12,9 @@ use crate::syntax::ast::Span;
 impl Contour {
     /// The next step.
     pub(in crate::exec) fn pop(&mut self) -> Option<Step> {
+        if self.queue.is_empty() && self.end.is_none() {
+            return None;
+        }
         let mut before = std::mem::take(&mut self.stray);
         loop {
             let Some(item) = self.queue.pop_front() else {

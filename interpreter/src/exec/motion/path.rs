@@ -406,7 +406,9 @@ impl Decoder {
         });
         self.moved = true;
         self.report.extend(self.contour.motion(motion));
-        let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
-        self.report.extend(self.contour.take_outside(&limits));
+        if self.contour.has_to_report() {
+            let limits = self.geometry.limits(&self.motion, &self.names, &self.machine);
+            self.report.extend(self.contour.take_outside(&limits));
+        }
     }
 }
