@@ -1,6 +1,6 @@
 //! The filter kernels of the axes, in the form the tolerance needs.
 
-use kontur_filters::kernel::Kernel;
+use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use std::sync::Arc;
 
@@ -19,6 +19,8 @@ pub struct Kernels {
     longest: Option<usize>,
     /// Delay of the longest kernel in cycles.
     pub(super) delay: f64,
+    /// Largest variance of a kernel in cycles squared.
+    spread_cycles2: f64,
     /// The kernel of each axis reduced to few taps: weights, and mean delays in cycles.
     pub(super) coarse: Vec<Vec<(f64, f64)>>,
 }
@@ -32,9 +34,10 @@ impl Kernels {
         let length = |i: &usize| axes[*i].as_ref().map_or(0, |k| k.length());
         let longest = (0..axes.len()).filter(|i| axes[*i].is_some()).max_by_key(length);
         let delay = longest.and_then(|i| axes[i].as_ref()).map_or(0.0, |k| k.delay_cycles());
+        let spread_cycles2 = axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
         let coarse = axes.iter().map(|k| k.as_ref().map_or_else(|| vec![(1.0, 0.0)], coarse));
         let coarse = coarse.collect();
-        Self { axes, overshoot, unequal, longest, delay, coarse }
+        Self { axes, overshoot, unequal, longest, delay, spread_cycles2, coarse }
     }
 
     /// Whether any axis has a kernel.
@@ -77,6 +80,13 @@ impl Kernels {
         let along: f64 = u.iter().enumerate().map(|(i, c)| c * c * delay(i)).sum::<f64>() / norm;
         let aside = |(i, c): (usize, &f64)| (c * (delay(i) - along)).abs();
         tolerance_mm / u.iter().enumerate().map(aside).fold(0.0, f64::max)
+    }
+
+    /// Speed in mm/s at which a bend in 1/mm alone uses up a tolerance in mm: `v^2 T^2 spread bend / 2` (derived for a
+    /// parabola).
+    pub(super) fn speed_on_bend(&self, bend: f64, tolerance_mm: f64, cycle: CycleTime) -> f64 {
+        let t = cycle.seconds();
+        (2.0 * tolerance_mm / (self.spread_cycles2 * t * t * bend.max(1e-6))).sqrt()
     }
 
     /// Filters rows that contain the positions of all axes and the path length, which takes the longest kernel;
@@ -125,6 +135,16 @@ fn add<'a, const N: usize>(kernel: &Kernel, row: impl Fn(u32) -> &'a [f64], out:
             out[i] += tap.weight * (row[i] - now[i]);
         }
     }
+}
+
+/// Variance of the kernel in cycles squared; negative weights count as positive ones.
+fn spread_cycles2(kernel: &Kernel) -> f64 {
+    let mean = kernel.delay_cycles();
+    let part = |tap: &Tap| {
+        let d = f64::from(tap.delay) - mean;
+        tap.weight.abs() * d * d
+    };
+    kernel.taps().iter().map(part).sum()
 }
 
 /// Reduces a kernel of many taps to few.

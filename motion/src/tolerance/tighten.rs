@@ -8,7 +8,7 @@ use crate::axis::AxisVec;
 use crate::overshoot::gentle;
 use crate::path::Path;
 use crate::queue::{Queued, Stretch};
-use kontur_filters::kernel::{Kernel, Tap};
+use kontur_filters::kernel::Kernel;
 use std::sync::Arc;
 
 /// Share of the tolerance by which a correction aims below it, so that the search ends.
@@ -171,7 +171,7 @@ fn stretches(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Vec<Stretch>
     let mut out = Vec::new();
     let mut from = 0.0;
     for (end, bend) in queued.bends() {
-        let speed = on_a_bend(trial, bend, tolerance).min(fastest);
+        let speed = trial.kernels.speed_on_bend(bend, tolerance, trial.cycle).min(fastest);
         let parts = if trial.kernels.unequal { turns(bend, end - from) } else { 1 };
         for i in 1..=parts {
             let until = from + (end - from) * f64::from(i) / f64::from(parts);
@@ -202,19 +202,13 @@ fn ends_apart(trial: &Trial<'_>, queued: &Queued, tolerance: f64) -> Option<f64>
     let is_whole = !queued.goes_on && queued.offset <= 0.0;
     let is_arc = matches!(queued.block.path, Path::Arc(_) | Path::Tilted(_))
         && !queued.block.slope.keeps_ramp_times();
-    let v = on_a_bend(trial, queued.bend, tolerance).min(queued.velocity.v_mm_s);
+    let on_bend = trial.kernels.speed_on_bend(queued.bend, tolerance, trial.cycle);
+    let v = on_bend.min(queued.velocity.v_mm_s);
     let held_mm = v * f64::from(trial.kernels.length()) * trial.cycle.seconds();
     // what leaves the contour before or after the block is due to as much again
     let reach_mm = if queued.block.tolerance.ax_dev_mm.is_some() { held_mm } else { 2.0 * held_mm };
     let fits = reach_mm > 0.0 && 2.0 * reach_mm + held_mm <= queued.length;
     (is_whole && is_arc && !trial.kernels.unequal && fits).then_some(reach_mm)
-}
-
-/// Speed in mm/s at which a curve alone uses up the tolerance: `v^2 T^2 spread bend / 2` (derived for a parabola).
-pub(super) fn on_a_bend(trial: &Trial<'_>, bend: f64, tolerance: f64) -> f64 {
-    let spread = trial.kernels.axes.iter().flatten().map(|k| spread_cycles2(k)).fold(0.0, f64::max);
-    let t = trial.cycle.seconds();
-    (2.0 * tolerance / (spread * t * t * bend.max(1e-6))).sqrt()
 }
 
 /// Speed in mm/s at which the tolerance cannot be exceeded: the path within the filters is then shorter than the
@@ -224,16 +218,6 @@ fn harmless(trial: &Trial<'_>, tolerance: f64) -> f64 {
     let gain = trial.kernels.axes.iter().flatten().map(|k| gain(k)).fold(1.0, f64::max);
     let held_s = f64::from(trial.kernels.length().max(1)) * trial.cycle.seconds();
     0.5 * tolerance / (gain * held_s)
-}
-
-/// Variance of the kernel in cycles squared; negative weights count as positive ones.
-fn spread_cycles2(kernel: &Kernel) -> f64 {
-    let mean = kernel.delay_cycles();
-    let part = |tap: &Tap| {
-        let d = f64::from(tap.delay) - mean;
-        tap.weight.abs() * d * d
-    };
-    kernel.taps().iter().map(part).sum()
 }
 
 /// Keeps the larger excess.
