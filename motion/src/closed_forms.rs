@@ -23,12 +23,10 @@ mod tests {
     use crate::block::{Block, ChannelDynamics, Feed, Slope, SlopeKind, Tolerance};
     use crate::path::{ArcPath, ArcShape, LinePath, Path};
     use crate::planner::{Next, Planner};
-    use crate::realtime::OverrideRatios;
     use crate::tolerance::Kernels;
     use kontur_filters::time::CycleTime;
     use kontur_filters::vib_guard::VibGuardSettings;
     use kontur_kit::Random;
-    use std::f64::consts::PI;
     use std::sync::Arc;
 
     /// Lines and arcs with filters that differ, searched for a plan within the tolerance: set points computed per cycle of
@@ -78,46 +76,6 @@ mod tests {
         let worst = costs.iter().copied().fold(0.0, f64::max);
         let mean = costs.iter().sum::<f64>() / costs.len() as f64;
         assert!(mean <= 8.0 && worst <= 30.0, "{mean} {worst}");
-    }
-
-    /// Ten changes of the override in one second on a row of semicircles that lasts at least a second per arc: closed forms and
-    /// set points computed because of them.
-    fn changed(arcs: u64) -> u64 {
-        let cycle = CycleTime::from_us(1000).unwrap();
-        let guard = VibGuardSettings { mode: 2, freq_hz: 10.0, damping: 0.1 };
-        let kernel = Some(Arc::new(guard.kernel(cycle).unwrap()));
-        let mut planner = Planner::new(cycle, 120, &[0.0; 3]);
-        planner.set_kernels(Kernels::new(vec![kernel; 3]), 0);
-        let dynamics = dynamics();
-        for seq in 0..arcs {
-            let [from, to] = [seq, seq + 1].map(|i| 20.0 * i as f64);
-            let sweep_rad = if seq % 2 == 0 { PI } else { -PI };
-            let shape = ArcShape { plane: [0, 1], centre_mm: [0.5 * (from + to), 0.0], sweep_rad };
-            let [from, to] = [from, to].map(|x| AxisVec::from_slice(&[x, 0.0, 0.0]));
-            let path = Path::Arc(ArcPath::new(from, to, shape, &[true; 3]).unwrap());
-            let block = Block::new(seq, path, Feed::PathVelocity(30.0), Arc::clone(&dynamics));
-            let tolerance = Tolerance { ax_dev_mm: Some(0.01), acc_fact: 1.0 };
-            planner.push(Block { tolerance, ..block });
-        }
-        planner.finish();
-        assert_eq!(planner.advance().unwrap(), Next::Setpoint);
-        take();
-        for k in 1..=1000_u32 {
-            if k % 100 == 0 {
-                let feed = if k % 200 == 0 { 1.0 } else { 0.7 };
-                planner.set_override(OverrideRatios { feed, rapid: 1.0 });
-            }
-            assert_eq!(planner.advance().unwrap(), Next::Setpoint);
-        }
-        assert!(planner.take_unkept().is_empty());
-        take()
-    }
-
-    #[test]
-    fn a_change_of_the_override_costs_the_same_whatever_lies_ahead() {
-        let (few, many) = (changed(15), changed(90));
-        println!("{few} and {many}");
-        assert!(many as f64 <= 1.2 * few as f64, "{many} after {few}");
     }
 
     fn dynamics() -> Arc<ChannelDynamics> {

@@ -98,10 +98,7 @@ impl Plan {
 
     /// Replaces all segments, with the demands of the tolerance on the new ones.
     pub(crate) fn replace(&mut self, segments: Vec<Segment>) {
-        // those behind have not been planned yet
-        let planned = segments.iter().rposition(|s| s.asked.is_some()).map_or(0, |last| last + 1);
-        let asked = segments[..planned].iter().map(|s| s.asked.unwrap_or_default());
-        self.demands = Demands::again(asked);
+        self.demands = Demands::again(segments.iter().map(|s| s.asked.unwrap_or_default()));
         self.segments = segments.into();
         self.draft = Draft::default();
         self.programmed = programmed(&self.segments);

@@ -3,8 +3,7 @@
 //! Up to two windows of blocks are collected (P-STUP-00071 is the size of one). Then [`crate::lookahead`] plans all of
 //! them with a stop at the end of the known path, and all but the last window becomes final. Every executed block
 //! therefore had at least one window of look-ahead after it, and planning costs a constant number of closed forms per
-//! block. A path with a tolerance is planned only as far ahead as a change of its speed can concern, see `horizon`. A plan
-//! with constant jerk is left at the end of a block inside a span, with the acceleration it has there; if
+//! block. A plan with constant jerk is left at the end of a block inside a span, with the acceleration it has there; if
 //! no new plan can start from such a state, the old one continues for a few blocks. The final part is a
 //! [`crate::timeline`] that is sampled cycle by cycle.
 //!
@@ -34,7 +33,6 @@
 mod extend;
 mod feedhold;
 mod halt;
-mod horizon;
 mod replan;
 mod rests;
 mod sharp;

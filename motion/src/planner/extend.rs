@@ -33,20 +33,14 @@ pub(super) enum Searched {
 impl Planner {
     /// Plans the queue and makes all but the last window final, or divides queued blocks first.
     pub(super) fn extend(&mut self) -> Result<(), Infeasible> {
-        let mut window = self.plan.window();
-        let horizon = self.horizon(&window);
-        if let Some(horizon) = horizon {
-            window.truncate(horizon.count);
-        }
+        let window = self.plan.window();
         // a block with zero speed ends the path before it
         let barred = window.len() < self.plan.segments.len();
         let mut start = self.plan.start.moment;
         if self.plan.is_at_rest() && start.origin < self.setpoint.k {
             start = Moment::tick(self.setpoint.k);
         }
-        let end = if horizon.is_some() {
-            SpeedLimit::Lookahead
-        } else if barred {
+        let end = if barred {
             SpeedLimit::Feed
         } else if self.ends() {
             SpeedLimit::Stop
@@ -55,10 +49,7 @@ impl Planner {
         };
         self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; window.len() + 1];
-        let last_window = match horizon {
-            Some(horizon) => horizon.front,
-            None => last_blocks(&window, self.window),
-        };
+        let last_window = last_blocks(&window, self.window);
         let rests = end != SpeedLimit::Lookahead;
         let mut last = None;
         let asked = self.plan.demands.clone();
@@ -192,15 +183,10 @@ impl Planner {
     /// The way to rest from the end of the final part that keeps the tolerance; `None` if there is none.
     pub(super) fn way_out(&mut self) -> Option<Vec<Entry>> {
         loop {
-            let mut window = self.plan.window();
-            let mut end = SpeedLimit::Stop;
-            if let Some(horizon) = self.horizon(&window) {
-                window.truncate(horizon.count);
-                end = SpeedLimit::Lookahead;
-            }
+            let window = self.plan.window();
             self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
             let forced = vec![false; window.len() + 1];
-            let ends = (self.plan.start.moment, end);
+            let ends = (self.plan.start.moment, SpeedLimit::Stop);
             match self.search(&window, &forced, ends, Some(Vec::new()), &mut 0, f64::INFINITY) {
                 Searched::Kept(entries) => return Some(entries),
                 Searched::Divided(parts) => self.plan.divide(parts, &self.kernels, self.cycle),

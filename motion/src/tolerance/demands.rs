@@ -39,8 +39,6 @@ pub(crate) struct Demands {
     pub(super) slower: Vec<(u32, f64)>,
     /// Excess in mm at each boundary when it was last too fast.
     pub(super) tried: Vec<Option<f64>>,
-    /// Cap and stop of the first boundary, which the plan no longer has to keep: the path reaches it in a final state.
-    reached: (f64, Option<u32>),
     /// First boundary without a known even speed, see [`super::even::foresee`].
     pub(super) foreseen: usize,
     /// The plan for whose excesses even speeds were demanded.
@@ -59,7 +57,6 @@ impl Default for Demands {
             repeats: vec![0],
             slower: Vec::new(),
             tried: vec![None],
-            reached: (f64::INFINITY, None),
             foreseen: 0,
             answered: None,
             places: Places::default(),
@@ -93,10 +90,12 @@ impl Demands {
 
     /// The demands on a block and on the boundary before it; `None` if it has not been planned yet.
     pub(crate) fn of(&self, block: usize) -> Option<Asked> {
-        let feed = *self.feed.get(block)?;
-        let (cap, stop) =
-            if block == 0 { self.reached } else { (self.cap[block], self.stop[block]) };
-        Some(Asked { feed, cap, stop, acceleration: self.acceleration[block] })
+        Some(Asked {
+            feed: *self.feed.get(block)?,
+            cap: self.cap[block],
+            stop: self.stop[block],
+            acceleration: self.acceleration[block],
+        })
     }
 
     /// Adds blocks with the demands known before planning: axes whose filters have different delays leave a straight
@@ -113,31 +112,6 @@ impl Demands {
         for (queued, feed) in window.iter().zip(&mut self.feed).skip(known) {
             *feed = even_on(queued, kernels, cycle);
         }
-    }
-
-    /// Least time in s that a block takes under the demands known so far; along bends longer than the filters, the time
-    /// at the speed that the tolerance permits at constant speed.
-    pub(crate) fn least_time(
-        &self,
-        block: usize,
-        queued: &Queued,
-        kernels: &Kernels,
-        cycle: CycleTime,
-    ) -> f64 {
-        let known = self.feed.get(block).copied();
-        let feed = known.unwrap_or_else(|| even_on(queued, kernels, cycle));
-        let most = queued.velocity.v_mm_s.min(feed);
-        let tolerance = queued.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY);
-        let held_s = f64::from(kernels.length()) * cycle.seconds();
-        let mut from = 0.0;
-        let along = queued.bends().into_iter().map(|(end, bend)| {
-            let length = end - from;
-            from = end;
-            let even = kernels.speed_on_bend(bend, tolerance, cycle);
-            length / if even * held_s <= length { most.min(even) } else { most }
-        });
-        let dwell = self.stop.get(block).copied().flatten().unwrap_or(0);
-        along.sum::<f64>() + f64::from(dwell) * cycle.seconds()
     }
 
     /// Demands dwells as long as the filters at the boundaries between some blocks and at both ends, and drops all
@@ -247,9 +221,6 @@ impl Demands {
 
     /// Drops the first blocks, which are final. The boundary after them starts without demands.
     pub(crate) fn pass(&mut self, blocks: usize) {
-        if blocks > 0 {
-            self.reached = (self.cap[blocks], self.stop[blocks]);
-        }
         self.cap.drain(..blocks);
         self.stop.drain(..blocks);
         self.repeats.drain(..blocks);
