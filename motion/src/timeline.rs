@@ -1,8 +1,8 @@
 //! Spans on the time axis: where the path is in cycle `k`.
 //!
 //! The profiles are continuous. A motion starts on a cycle tick; its setpoint `j` is the profile at `j T`, counted as
-//! an integer. A thread starts inside a cycle, where the spindle passes its mark. Boundaries of spans and blocks fall inside cycles, and the rest of such a cycle is spent in the next
-//! span. The last cycle of a motion is its exact end.
+//! an integer. A thread starts inside a cycle, where the spindle passes its mark. Boundaries of spans and blocks fall
+//! inside cycles, and the rest of such a cycle is spent in the next span. The last cycle of a motion is its exact end.
 
 mod reason;
 

@@ -200,7 +200,7 @@ fn passes_of_a_thread_lie_in_each_other() {
 fn passes_lie_in_each_other_behind_any_corner() {
     for (freq, ax_dev) in [(15.0, 0.01), (4.0, 0.01), (2.0, 0.001)] {
         let text = format!(
-            "%P\nM3 S500\n#VIB GUARD ON [MODE=4 FREQ={freq} AX_DEV={ax_dev}]\nG01 Z9 F6000\nG33 Z-50 K1.5\nG01 X20 Z9\nG33 Z-50\nG00 Z9\n\
+            "%P\nM3 S611.7\n#VIB GUARD ON [MODE=4 FREQ={freq} AX_DEV={ax_dev}]\nG01 Z9 F6000\nG33 Z-50 K1.5\nG01 X20 Z9\nG33 Z-50\nG00 Z9\n\
              G01 X10\nG33 Z-50\nG00 Z10\nZ9\nG04 0.0731\nG33 Z-50\nG01 X0 Z9\nZ9.1\nZ9\nG33 Z-50\nM5\nM30\n"
         );
         let run = run(&text, &[]);
@@ -210,6 +210,41 @@ fn passes_lie_in_each_other_behind_any_corner() {
         for pass in passes {
             assert!(apart(pass, passes[0], 1.5) < 1e-6, "{freq} Hz: {passes:?}");
         }
+    }
+}
+
+/// Under `AX_DEV` a thread waits until the filters of the path have settled, not for axes that move on their own.
+#[test]
+fn a_thread_does_not_wait_for_independent_axes() {
+    for (moves, ends) in [
+        ("X[OSC ON 1ST_POS=0 2ND_POS=10 FEED=3000]", "X[OSC OFF]"),
+        ("X[INDP_ASYN G90 G01 FEED=300 POS=40]", "G04 0.1"),
+    ] {
+        let text = format!(
+            "%P\nM3 S600\n#VIB GUARD ON [MODE=4 FREQ=15 AX_DEV=0.01]\nF3000\n{moves}\nG33 Z-20 K1.5\n{ends}\n#WAIT INDP ALL\nM30\n"
+        );
+        let run = run(&text, &[]);
+        let begins = run.of_line(6).find(|r| r.axes[Z].ipo < -1.0).unwrap();
+        assert!(run.cycle_s * (begins.k as f64) < 1.0, "{text}");
+    }
+}
+
+/// An override that does not act on G33 (P-CHAN-00836) leaves it as it is, whenever it changes.
+#[test]
+fn an_override_that_does_not_act_leaves_the_thread_alone() {
+    for head in
+        ["#SLOPE [TYPE=SIN2]", "#SLOPE [TYPE=HSC]\n#VIB GUARD ON [MODE=4 FREQ=15 AX_DEV=0.01]"]
+    {
+        let text = format!("%P\n{head}\nM3 S611.7\nG01 X3 F3000\nG33 Z-40 K1.5\nG01 X5\nM30\n");
+        let line = text.lines().position(|l| l.starts_with("G33")).unwrap() as u32 + 1;
+        let alone = thread(&run_with_inputs(machine(&[KEEPS_PITCH]), &text, &[]), line, 1.5, 1.0);
+        let steps = (0..400_u32).map(|i| {
+            let percent = if i % 2 == 0 { 100.0 } else { 50.0 };
+            (f64::from(i) * 0.0137, "override_percent", percent)
+        });
+        let run = run_with_inputs(machine(&[KEEPS_PITCH]), &text, &steps.collect::<Vec<_>>());
+        let pass = thread(&run, line, 1.5, 1.0);
+        assert!(apart(pass, alone, 1.5) < 1e-7, "{text}{pass} {alone}");
     }
 }
 

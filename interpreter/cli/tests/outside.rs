@@ -173,6 +173,10 @@ fn diff_names_line_and_recognises_a_shift() {
     let (exit, out, _) = f.call(&["diff", "@late.csv", "@corner.csv"]);
     assert_eq!(exit, Exit::Aborted);
     assert!(out.contains("equal if B is taken 2 rows later"), "{out}");
+    f.call(&["run", "@corner.nc", "-o", "@two.csv", "--cycle-us", "2000"]);
+    let (exit, out, _) = f.call(&["diff", "@corner.csv", "@two.csv"]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(out.contains("  times  row 1 is at 0.001000 s in A and at 0.002000 s in B: "), "{out}");
 }
 
 #[test]

@@ -14,7 +14,7 @@ impl Simulation {
         let is_over = self.blocks.shown != self.blocks.current || self.blocks.current.line == 0;
         match &self.phase {
             Phase::Waiting(wait) if is_over || wait.is_of_its_own_block() => self.blocks.waits_at,
-            Phase::Running => self.blocks.shown,
+            Phase::Running if self.is_held || self.blocks.left => self.blocks.shown,
             Phase::Stopping(stopping) => stopping.waited_at.unwrap_or(self.blocks.current),
             _ => self.blocks.current,
         }
@@ -28,7 +28,7 @@ impl Simulation {
                 self.progress.begin(block.programmed, s_mm, changed);
                 // the block began after the previous cycle
                 self.time_begins(block.time_s, block.source, k.saturating_sub(1));
-                (self.blocks.current, self.blocks.shown) = (block.source, block.source);
+                (self.blocks.current, self.blocks.left) = (block.source, false);
                 self.motion = block.motion;
                 for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {
                     if let Driver::Path(p) = driver {
@@ -116,7 +116,7 @@ impl Simulation {
     /// The record is that of cycle `k`, in which nothing but the path and its block differ from the one before, apart from the
     /// axes.
     pub(super) fn pass(&mut self, k: u64, path: Row) {
-        let at = self.blocks.shown;
+        let at = if self.blocks.left { self.blocks.shown } else { self.blocks.current };
         let CycleRecord { path: record, .. } = &mut self.record;
         *record = PathRecord {
             s_mm: path.s_mm,
@@ -144,6 +144,7 @@ impl Simulation {
             _ => None,
         };
         let at = self.block_of_cycle();
+        self.blocks.left |= matches!(self.phase, Phase::Waiting(_)) && at != self.blocks.current;
         self.blocks.shown = at;
         self.record.file = at.file;
         self.record.line = at.line;

@@ -102,8 +102,10 @@ pub(in crate::sim) struct Queue {
 #[derive(Debug)]
 pub(in crate::sim) struct BlockRefs {
     pub(in crate::sim) current: SourceRef,
-    /// Block of the last cycle, or one entered since, see [`Simulation::block_of_cycle`].
+    /// Block of the last cycle, see [`Simulation::block_of_cycle`].
     pub(in crate::sim) shown: SourceRef,
+    /// Whether a wait behind the current block has had cycles.
+    pub(in crate::sim) left: bool,
     /// Block for which the path waits at rest.
     pub(in crate::sim) waits_at: SourceRef,
     /// Block of the last stop of every chain.
@@ -114,7 +116,13 @@ impl BlockRefs {
     /// Before the first block.
     pub(in crate::sim) fn none(chains: usize) -> Self {
         let none = SourceRef::default;
-        Self { current: none(), shown: none(), waits_at: none(), stops_at: vec![none(); chains] }
+        Self {
+            current: none(),
+            shown: none(),
+            left: false,
+            waits_at: none(),
+            stops_at: vec![none(); chains],
+        }
     }
 }
 
@@ -167,6 +175,7 @@ pub(crate) struct Simulation {
     pub(in crate::sim) batch: Batch,
     /// Set positions of the path axes in the previous cycle, before their filters.
     pub(in crate::sim) path_position: AxisVec,
+    /// The thread of G33 that is being cut.
     pub(in crate::sim) thread: Option<Thread>,
     pub(in crate::sim) times: Times,
     /// The measuring run under way.

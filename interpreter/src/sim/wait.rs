@@ -181,7 +181,9 @@ impl Wait {
                 !parts.independent.is_moving(p)
             }
             (Until::Flushed | Until::AllInPosition, Driver::Path(_)) => true,
-            (Until::Spindle(_, SpindleState::Mark { settled, .. }), Driver::Path(_)) => *settled,
+            (Until::Spindle(_, SpindleState::Mark { settled, .. }), Driver::Path(p)) => {
+                *settled && !parts.independent.is_moving(p)
+            }
             (Until::AllInPosition, Driver::Spindle(s)) => parts.spindles[s].positions(),
             (Until::Now | Until::Cycles(..) | Until::Spindle(..), Driver::Path(_))
             | (_, Driver::Spindle(_) | Driver::Standing) => false,

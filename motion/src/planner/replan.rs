@@ -58,6 +58,10 @@ enum Outcome {
 impl Planner {
     /// Applies the requested override and feedhold.
     pub(super) fn replan(&mut self) {
+        if self.changes_nothing() {
+            self.active = self.wanted;
+            return;
+        }
         while self.fall_back().is_some() {}
         self.active = self.wanted;
         let (k, cycle) = (self.setpoint.k, self.cycle);
@@ -71,6 +75,17 @@ impl Planner {
         }
         // the old plan itself exceeds the tolerance, which has been reported: follow it to its rest
         self.timeline.put(old);
+    }
+
+    /// Whether neither a feedhold nor the speed of any known block changes: an override does not act on all blocks (G166,
+    /// threads), nor on those that their axes limit. A leg would pass through zero acceleration.
+    fn changes_nothing(&self) -> bool {
+        let stays = |queued: &Arc<Queued>| Arc::ptr_eq(queued, &queued.rated(&self.wanted.ratios));
+        let mut planned = self.timeline.entries().chain(&self.plan.reserve).flat_map(|e| &e.blocks);
+        self.active.hold.is_none()
+            && self.wanted.hold.is_none()
+            && planned.all(|(queued, _)| stays(queued))
+            && self.plan.segments.iter().all(|segment| stays(&segment.queued))
     }
 
     /// Changes the speed at the first point where a leg with this share of the acceleration fits; false if waiting any

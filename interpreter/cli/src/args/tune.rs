@@ -28,7 +28,7 @@ pub struct TuneArgs {
     pub freq: Vec<f64>,
 
     /// Acceleration recording of a decaying vibration, one per position: CSV with comma, semicolon or tab, any header, or
-    /// a CSV export of TwinCAT Scope
+    /// a CSV export of TwinCAT Scope. Modes whose peak is below 15 % of the highest one are not listed
     #[arg(long, value_name = "FILE")]
     pub recording: Vec<PathBuf>,
 

@@ -26,6 +26,14 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     if o.rows_a != o.rows_b {
         writeln!(out, "  rows   {} in A, {} in B", o.rows_a, o.rows_b)?;
     }
+    if let Some(times) = o.columns.iter().find(|c| c.column == "t_s") {
+        let Difference { row, a, b, .. } = &times.first;
+        let (a, b) = (brief(a), brief(b));
+        writeln!(
+            out,
+            "  times  row {row} is at {a} s in A and at {b} s in B: rows are compared by number, write both with the same cycle time and --decimate"
+        )?;
+    }
     for (side, columns) in [("A", &o.only_a), ("B", &o.only_b)] {
         if !columns.is_empty() {
             let columns: Vec<String> = columns.iter().map(|c| brief(c)).collect();

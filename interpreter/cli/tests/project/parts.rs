@@ -71,7 +71,7 @@ fn a_missing_part_is_named() {
     }
     let named =
         [1, 2, 3].map(|i| format!("<Axis File=\"CNC\\AXIS_{i}.xti\" Id=\"{i}\"/>")).concat();
-    let others = "<Axis File=\"Off.xti\" Disabled=\"true\"/><Box File=\"Terminal 1.xti\"/>";
+    let others = "<Axis File=\"Off.xti\" Disabled=\"1\"/><Box File=\"Terminal 1.xti\"/>";
     let inside = format!(
         "{TASK}{named}{others}{}{}",
         axis("", "s.lis", (1, 3)),

@@ -132,7 +132,7 @@ impl Decoder {
             let text = "a label must be first in its block, not after other words";
             return Err(Fault::new(Condition::LabelBehindWords, text, bracket.group.span));
         }
-        if name.starts_with(['S', 's']) {
+        if name.strip_prefix(['S', 's']).is_some_and(|n| n.bytes().all(|b| b.is_ascii_digit())) {
             let text = format!("the channel has no spindle {name}");
             return Err(Fault::new(Condition::SpindleUnknown, text, bracket.group.span));
         }

@@ -54,6 +54,8 @@ pub(in crate::exec) struct End {
     pub(in crate::exec) transition: Transition,
     /// Components of the tangent by axis; axes without one get theirs from the points.
     pub(in crate::exec) vector: Vec<(usize, f64)>,
+    /// Whether a spline has begun with it since G151.
+    used: bool,
 }
 
 impl End {
@@ -149,8 +151,6 @@ pub(in crate::exec) struct Akima {
     pub(in crate::exec) selected: bool,
     /// Whether there was a motion before, which gives the direction of a tangential start.
     pub(super) moved: bool,
-    /// Whether no spline has begun since G151.
-    begins: bool,
     /// Whether an arc has interrupted the spline, which then continues tangentially.
     behind_arc: bool,
     run: Option<Box<Run>>,
@@ -303,14 +303,15 @@ impl Akima {
     /// G150, G151; a note if the spline has ended at an arc although the program states the tangent of its end.
     pub(in crate::exec) fn select(&mut self, on: bool, at: Span) -> Vec<Fault> {
         let at_arc = std::mem::take(&mut self.behind_arc) && self.run.is_none();
-        (self.selected, self.begins) = (on, on);
+        self.start.used &= on && self.selected;
+        self.selected = on;
         let unused = !on && self.end.loses_vector(at_arc);
         unused.then(|| unused_vector("ENDVECTOR", at)).into_iter().collect()
     }
 
     /// A note if the first spline of G151 begins at an arc although the program states the tangent of its start.
     pub(super) fn unused_start(&self, motion: &Motion) -> Option<Fault> {
-        let begins = self.begins && self.run.is_none();
+        let begins = !self.start.used && self.run.is_none();
         (begins && self.start.loses_vector(self.behind_arc))
             .then(|| unused_vector("STARTVECTOR", motion.span))
     }
@@ -357,7 +358,7 @@ impl Akima {
                 behind_arc,
             })
         });
-        self.begins = false;
+        self.start.used = true;
         run.waiting.push_back(motion);
         run.slopes.push_back(slope);
         while run.waiting.len() > AHEAD {

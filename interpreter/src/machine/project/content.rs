@@ -140,7 +140,7 @@ impl Content {
     /// returns the items that are left out and the reasons.
     ///
     /// Assumptions: the references of a project (`File`) determine which of the files next to it belong to it, unless
-    /// they refer to none of those with lists, as among exported items; an item with `Disabled="true"`, or inside one,
+    /// they refer to none of those with lists, as among exported items; an item with `Disabled` `true` or `1`, or inside one,
     /// is not activated.
     pub(super) fn settle(&mut self) -> Vec<String> {
         let named = |list: &ListText| {
@@ -226,7 +226,9 @@ fn number(node: Node<'_, '_>, attribute: &str) -> Option<u32> {
 
 /// Whether an item, or one around it, is switched off in the tree of the project.
 fn is_disabled(node: Node<'_, '_>) -> bool {
-    node.ancestors().filter_map(|item| item.attribute("Disabled")).any(|text| text == "true")
+    node.ancestors()
+        .filter_map(|item| item.attribute("Disabled"))
+        .any(|text| matches!(text, "true" | "1"))
 }
 
 /// Texts and CDATA sections of an element itself.

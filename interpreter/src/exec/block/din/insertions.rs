@@ -153,7 +153,7 @@ impl Modal {
                 }
                 Some(size) if size > 0.0 => request = Some((kind, size, g.span)),
                 size => {
-                    let text = format!("G{} {} (I)", g.row.number, no_size(size));
+                    let text = format!("G{} {}", g.row.number, no_size(size));
                     report.note(Fault::new(Condition::InsertionWithoutSize, text, g.span));
                 }
             }

@@ -128,6 +128,7 @@ pub(super) fn ends_program(text: &str) -> bool {
         let rest = &text[i + 1..];
         let length = digits(rest);
         matches!(rest[..length].trim_start_matches('0'), "2" | "30" | "17" | "29")
+            && !text[..i].ends_with(|c: char| c.is_ascii_alphabetic() || c == '_')
             && is_code(text, i)
     })
 }
