@@ -329,8 +329,8 @@ impl Planner {
         self.output(self.setpoint.k + count as u64);
     }
 
-    /// Lets the next motion begin a share of a cycle (0 to 1) after the present one; only at rest. Its setpoints are those of its
-    /// profile at these moments.
+    /// Lets the next motion begin a share of a cycle (0 to 1) after the present one; only at rest. Its setpoints are those
+    /// of its profile at these moments. A cycle of [`Self::hold`] before it ends the share.
     pub fn begin_within_cycle(&mut self, share: f64) {
         let start = &mut self.plan.start;
         let tick = Moment::tick(start.moment.origin.max(self.setpoint.k));

@@ -176,7 +176,7 @@ fn apart(a: f64, b: f64, pitch: f64) -> f64 {
 fn passes_of_a_thread_lie_in_each_other() {
     for (m, sense) in [("M3", 1.0), ("M4", -1.0)] {
         let text = format!(
-            "%P\n{m} S500\nG33 Z-40 K1.5\nG00 X1\nZ0\nG04 0.1234\nG33 Z-40 K1.5\nG00 Z0\nG33 Z-40 K1.5 S.OFFSET=120\n\
+            "%P\n{m} S611.7\nG33 Z-40 K1.5\nG00 X1\nZ0\nG04 0.1234\nG33 Z-40 K1.5\nG00 Z0\nG33 Z-40 K1.5 S.OFFSET=120\n\
              G00 Z0\nG33 Z-35\nZ-40\nG01 Z-41 F100\nM5\nM30\n"
         );
         for inputs in [&[][..], &[(0.0, "override_percent", 50.0)]] {

@@ -122,7 +122,7 @@ impl Decoder {
         }
         // `X100 [NAME]` looks like a bracket of an axis X100, unlike `S1[G135]`
         let is_function = |word: &str| {
-            let number = word.strip_prefix(['G', 'M', 'H']);
+            let number = word.strip_prefix(['G', 'M', 'H', 'g', 'm', 'h']);
             number.is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
         };
         if let ([Item { kind: ItemKind::Flag(word), .. }], true) =

@@ -351,7 +351,7 @@ fn wind(arc: &mut Arc, height_mm: f64, pitch_mm: f64, report: &mut Report, at: S
     }
     arc.sweep_rad = arc::with_turns(arc.sweep_rad, height_mm, pitch_mm);
     if let Some(text) = other_pitch(arc.sweep_rad, height_mm, pitch_mm) {
-        report.note(Fault::new(Condition::Odd, text, at));
+        report.note_once("pitch of a helix", Fault::new(Condition::Odd, text, at));
     }
 }
 

@@ -122,7 +122,7 @@ impl Decoder {
             let text = format!(
                 "the pitch is that along {name}, although the thread runs farther along {other}: at 45 deg and more it is usually given along {other}"
             );
-            self.report.note(Fault::new(Condition::Odd, text, span));
+            self.report.note_once(Subject::G(33), Fault::new(Condition::Odd, text, span));
         }
         let index = turning_spindle(&self.motion.spindles[0], span)?;
         let rev_s =
