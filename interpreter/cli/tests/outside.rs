@@ -189,6 +189,27 @@ fn diff_runs_a_program_with_the_columns_of_the_trace() {
     assert_eq!(f.call(&["diff", "@corner.nc", "@corner.nc"]).0, Exit::Finished);
 }
 
+/// An approved trace of a program that does not reach its end must not stay approved.
+#[test]
+fn diff_fails_with_the_program_that_it_runs() {
+    let f = Folder::new();
+    let limit = ["--max-time", "0.5"];
+    let run = [&["run", "@corner.nc", "-o", "@a.csv"][..], &limit].concat();
+    assert_eq!(f.call(&run).0, Exit::Aborted);
+    let words = [
+        ("text", "equal: "),
+        ("text", "corner.nc was refused, or ended"),
+        ("json", "corner.nc\"]"),
+        ("junit", "name=\"run of"),
+        ("github", "::error title=run of"),
+    ];
+    for (format, word) in words {
+        let call = [&["diff", "@a.csv", "@corner.nc", "--format", format][..], &limit].concat();
+        let (exit, out, _) = f.call(&call);
+        assert_eq!((exit, out.contains(word)), (Exit::Aborted, true), "{format}: {out}");
+    }
+}
+
 #[test]
 fn report_is_one_self_contained_file() {
     let f = Folder::new();
