@@ -186,7 +186,7 @@ impl Gauge {
         }
     }
 
-    /// Begins a cycle with a tolerance, in which nothing has been found yet.
+    /// Begins a cycle in which both directions are measured; nothing has been found in it yet.
     fn begin(&mut self, axes: usize) {
         self.set.measure();
         if self.found.vector.len() == axes {
