@@ -1,6 +1,7 @@
 //! The programmed contour within reach of the filters, and the distance of a set point from it.
 
 mod around;
+mod seen;
 mod sight;
 
 use crate::axis::AxisVec;

@@ -406,7 +406,9 @@ impl Planner {
 
     /// The changes since the last call.
     pub fn take_changes(&mut self) -> impl Iterator<Item = Change> + '_ {
-        self.changes.iter_mut().flat_map(|changes| changes.drain(..))
+        // there are none in most cycles
+        let changes = self.changes.as_mut().filter(|changes| !changes.is_empty());
+        changes.into_iter().flat_map(|changes| changes.drain(..))
     }
 
     fn report(&mut self, what: impl FnOnce(&Self) -> What) {

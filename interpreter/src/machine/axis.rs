@@ -74,11 +74,13 @@ impl Axis {
     }
 
     /// Whether its positions are in mm.
+    #[inline]
     pub fn is_linear(&self) -> bool {
         self.kind == AxisKind::Linear
     }
 
     /// Whether the axis counts modulo its range, 360 degrees by default (P-AXIS-00015, bit 0x4).
+    #[inline]
     pub fn is_modulo(&self) -> bool {
         !self.is_linear() && self.mode_bits() & mode::MODULO != 0
     }

@@ -130,11 +130,12 @@ impl AxisColumns<'_> {
             return None;
         }
         let from = self.from;
-        let places = quantities.map(|quantity| {
-            let first = quantity as usize * STRIDE + from;
-            first..first + rows
-        });
-        self.values.get_disjoint_mut(places).ok()
+        let mut columns = [const { None }; Quantity::COUNT];
+        for (column, values) in columns.iter_mut().zip(self.values.chunks_exact_mut(STRIDE)) {
+            *column = values.get_mut(from..from + rows);
+        }
+        let found = quantities.map(|quantity| columns[quantity as usize].take());
+        found.iter().all(Option::is_some).then(|| found.map(Option::unwrap_or_default))
     }
 
     /// Skips this number of cycles.

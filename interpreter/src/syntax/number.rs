@@ -10,13 +10,14 @@ const EACH_BYTE: u64 = 0x0101_0101_0101_0101;
 /// Integers up to 2^53 are exact in `f64`.
 const EXACT_MAX: u64 = 1 << 53;
 
-/// Number at the beginning of `bytes` (`digits`, `digits.`, `digits.digits`, `.digits`) and its length.
+/// Number at a position (`digits`, `digits.`, `digits.digits`, `.digits`) and its length.
 ///
 /// `None` if there is no number, or if it has too many digits for the short method to be exact.
-pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
-    if let Some(found) = bytes.first_chunk().and_then(|word| decimal_in_word(*word)) {
+pub(super) fn short_decimal(bytes: &[u8], at: usize) -> Option<(f64, usize)> {
+    if let Some(found) = word_at(bytes, at).and_then(decimal_in_word) {
         return Some(found);
     }
+    let bytes = bytes.get(at..)?;
     let (whole, mut mantissa) = digits(bytes, 0);
     let (mut decimals, mut length) = (0, whole);
     if let Some([b'.', behind @ ..]) = bytes.get(whole..) {
@@ -31,10 +32,21 @@ pub(super) fn short_decimal(bytes: &[u8]) -> Option<(f64, usize)> {
     Some((mantissa as f64 / POWERS[decimals], length))
 }
 
+/// Eight bytes from a position on; zeros follow the end of the text. `None` for a shorter text.
+#[inline]
+pub(super) fn word_at(bytes: &[u8], at: usize) -> Option<[u8; 8]> {
+    let rest = bytes.get(at..)?;
+    if let Some(word) = rest.first_chunk() {
+        return Some(*word);
+    }
+    let last = u64::from_le_bytes(*bytes.last_chunk()?);
+    Some(last.checked_shr(8 * (8 - rest.len() as u32)).unwrap_or(0).to_le_bytes())
+}
+
 /// The same for a number with a point that ends within eight bytes, without a loop over its digits: their number, which
 /// cannot be predicted, then costs nothing.
 #[inline]
-fn decimal_in_word(word: [u8; 8]) -> Option<(f64, usize)> {
+pub(super) fn decimal_in_word(word: [u8; 8]) -> Option<(f64, usize)> {
     let (values, others) = digits_of_word(word);
     let whole = others.trailing_zeros() / 8;
     let behind = others.checked_sub(1).map_or(0, |below| others & below).trailing_zeros() / 8;
@@ -95,7 +107,7 @@ pub(super) fn digits(bytes: &[u8], mut number: u64) -> (usize, u64) {
 
 /// Value of a text that is a number by the grammar; `None` if it is outside the range of `f64`.
 pub(super) fn decimal(text: &str) -> Option<f64> {
-    match short_decimal(text.as_bytes()) {
+    match short_decimal(text.as_bytes(), 0) {
         Some((value, _)) => Some(value),
         None => text.parse().ok().filter(|v: &f64| v.is_finite()),
     }
@@ -103,16 +115,16 @@ pub(super) fn decimal(text: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{decimal, integer_in_word, short_decimal};
+    use super::{decimal, integer_in_word, short_decimal, word_at};
     use proptest::prelude::*;
 
     #[test]
     fn forms_of_a_number() {
-        assert_eq!(short_decimal(b"12.5X"), Some((12.5, 4)));
-        assert_eq!(short_decimal(b"5."), Some((5.0, 2)));
-        assert_eq!(short_decimal(b".5"), Some((0.5, 2)));
-        assert_eq!(short_decimal(b"."), None);
-        assert_eq!(short_decimal(b"X"), None);
+        assert_eq!(short_decimal(b"12.5X", 0), Some((12.5, 4)));
+        assert_eq!(short_decimal(b"5.", 0), Some((5.0, 2)));
+        assert_eq!(short_decimal(b".5", 0), Some((0.5, 2)));
+        assert_eq!(short_decimal(b".", 0), None);
+        assert_eq!(short_decimal(b"X", 0), None);
         assert_eq!(decimal("123456789012345678901234567890"), Some(1.2345678901234568e29));
         assert_eq!(decimal(&"9".repeat(400)), None);
     }
@@ -126,8 +138,22 @@ mod tests {
         ) {
             let number = format!("{whole}.{part}");
             let expected = number.parse().ok().map(|value: f64| (value.to_bits(), number.len()));
-            let found = short_decimal(format!("{number}{behind}").as_bytes());
-            prop_assert_eq!(found.map(|(value, length)| (value.to_bits(), length)), expected);
+            // at the beginning of a text, and behind other characters
+            for before in ["", "X-"] {
+                let text = format!("{before}{number}{behind}");
+                let found = short_decimal(text.as_bytes(), before.len());
+                let found = found.map(|(value, length)| (value.to_bits(), length));
+                prop_assert_eq!(found, expected);
+            }
+        }
+
+        /// Zeros follow the end of a text.
+        #[test]
+        fn a_word_ends_with_the_text(text in prop::collection::vec(1..=255_u8, 8..20), at in 0..22_usize) {
+            let behind = text.iter().copied().chain([0; 8]);
+            let expected: Vec<u8> = behind.skip(at).take(8).collect();
+            let word = word_at(&text, at);
+            prop_assert_eq!(word.map(Vec::from), (at <= text.len()).then_some(expected));
         }
 
         /// Integers as the standard library reads their digits; one of eight digits or more is left to others.

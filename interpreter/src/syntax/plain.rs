@@ -12,7 +12,7 @@ use super::ast::{
     Block, BlockNumber, Body, CodeNumber, Expr, ExprKind, Label, LabelKind, Name, Sign, Span, Word,
     WordKind,
 };
-use super::number::short_decimal;
+use super::number::{decimal_in_word, short_decimal, word_at};
 use scan::{before_words, blanks, integer};
 use smallvec::SmallVec;
 
@@ -103,7 +103,10 @@ pub(super) fn read(bytes: &[u8], mut take: impl FnMut(PlainWord) -> bool) -> Opt
     while let Some(letter) = bytes.get(at).filter(|b| **b != b';') {
         let (start, letter) = (at, letter.to_ascii_uppercase());
         let (value, gap);
-        (value, gap, end) = word(bytes, start, letter)?;
+        (value, gap, end) = match short_number(bytes, start, letter) {
+            Some((number, end)) => (PlainValue::Number(number), 0, end),
+            None => word(bytes, start, letter)?,
+        };
         at = blanks(bytes, end);
         if bytes.get(at) == Some(&b'(') {
             frame.open_remark = Some(Span::new(at, at + 1));
@@ -180,6 +183,24 @@ impl PlainWord {
     }
 }
 
+/// Whether a number follows this letter.
+const fn takes_number(letter: u8) -> bool {
+    matches!(letter, b'A'..=b'F' | b'I'..=b'K' | b'Q'..=b'U' | b'W'..=b'Z')
+}
+
+/// Value and end of the word at `start` if it is a letter and a short number, as most words of a long program; else see
+/// [`word`].
+#[inline]
+fn short_number(bytes: &[u8], start: usize, letter: u8) -> Option<(f64, usize)> {
+    if !takes_number(letter) {
+        return None;
+    }
+    let negative = bytes.get(start + 1) == Some(&b'-');
+    let at = start + 1 + usize::from(negative);
+    let (value, length) = decimal_in_word(word_at(bytes, at)?)?;
+    Some((if negative { -value } else { value }, at + length))
+}
+
 /// Value of the word at `start`, the number of characters between it and the letter, and its end.
 fn word(bytes: &[u8], start: usize, letter: u8) -> Option<(PlainValue, u8, usize)> {
     let at = start + 1;
@@ -188,7 +209,7 @@ fn word(bytes: &[u8], start: usize, letter: u8) -> Option<(PlainValue, u8, usize
             let (value, end) = integer(bytes, at)?;
             Some((PlainValue::Code(u32::try_from(value).unwrap_or(u32::MAX)), 0, end))
         }
-        b'A'..=b'F' | b'I'..=b'K' | b'Q'..=b'U' | b'W'..=b'Z' => {
+        letter if takes_number(letter) => {
             let first = match bytes.get(at) {
                 Some(b' ' | b'\t' | b'=' | b'(') => behind_equals(bytes, at),
                 _ => at,
@@ -218,7 +239,7 @@ fn value(bytes: &[u8], start: usize) -> Option<(PlainValue, usize)> {
         let value = if negative { negated(sum, start)? } else { PlainValue::Sum(Box::new(sum)) };
         return Some((value, end));
     }
-    let (value, length) = short_decimal(&bytes[at..])?;
+    let (value, length) = short_decimal(bytes, at)?;
     Some((PlainValue::Number(if negative { -value } else { value }), at + length))
 }
 

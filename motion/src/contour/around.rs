@@ -82,57 +82,9 @@ impl Contour {
         around
     }
 
-    /// As [`Contour::nearest`], using the distances known from earlier points; returns the length of the vector in mm.
-    pub(crate) fn nearest_in_sight(
-        &self,
-        point: &[f64],
-        moments: (f64, f64),
-        sight: &mut Sight,
-        out: &mut [f64],
-    ) -> Option<f64> {
-        let Range { start, end } = self.within_reach(moments, sight);
-        let among = start..self.whole(end);
-        sight.look_from(point, self.number(among.start)..self.number(among.end));
-        if among.is_empty() {
-            out.fill(0.0);
-            return None;
-        }
-        // the block that was nearest rules out most of the others
-        let last = sight.nearest.and_then(|number| self.index(number));
-        let guess = last.filter(|i| among.contains(i)).unwrap_or(among.start.midpoint(among.end));
-        let mut best = (self.blocks[guess].vector_to(point, out), guess);
-        let mut least = best.0.sqrt();
-        let vector = &mut AxisVec::zeros(point.len())[..];
-        let way = sight.way();
-        // as a closure, because a deque is passed through much faster from the inside
-        sight.clear().take(among.len()).enumerate().for_each(|(i, clear)| {
-            let i = among.start + i;
-            if i == guess {
-                *clear = way + least;
-            } else if *clear <= way + least + ROUNDING_MM {
-                let passed = &self.blocks[i];
-                let ball = passed.queued.ball.as_ref();
-                let bound = ball.map_or(0.0, |ball| ball.distance_from(point));
-                if bound > least + ROUNDING_MM {
-                    *clear = way + bound;
-                    return;
-                }
-                let square = passed.vector_to(point, vector);
-                let distance = square.sqrt();
-                *clear = way + distance;
-                // of equally near blocks the first
-                if (square, i) < best {
-                    (best, least) = ((square, i), distance);
-                    out.copy_from_slice(vector);
-                }
-            }
-        });
-        sight.nearest = Some(self.number(best.1));
-        Some(least)
-    }
-
     /// Entries interpolated between two moments (cycles).
-    fn within_reach(&self, (from, to): (f64, f64), sight: &mut Sight) -> Range<usize> {
+    #[inline]
+    pub(super) fn within_reach(&self, (from, to): (f64, f64), sight: &mut Sight) -> Range<usize> {
         let index = |number: u64| self.index(number).unwrap_or_default();
         let (entered, end) = match sight.entered {
             Some((first, end)) => {

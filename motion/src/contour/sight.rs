@@ -33,13 +33,17 @@ pub(crate) struct Sight {
 
 impl Sight {
     /// Moves the point and keeps the bounds of the blocks with these numbers.
+    #[expect(clippy::inline_always, reason = "a call would not know the number of axes")]
+    #[inline(always)]
     pub(super) fn look_from(&mut self, point: &[f64], blocks: Range<u64>) {
         self.steps += 1;
-        if self.at.len() == point.len() && self.steps < STEPS {
+        let n = point.len();
+        if self.at.len() == n && self.steps < STEPS {
+            let at = &mut self.at[..n];
             let mut square = 0.0;
-            for (at, to) in self.at.iter_mut().zip(point) {
-                square += (to - *at) * (to - *at);
-                *at = *to;
+            for i in 0..n {
+                square += (point[i] - at[i]) * (point[i] - at[i]);
+                at[i] = point[i];
             }
             self.way += f64::sqrt(square);
         } else {
@@ -72,5 +76,17 @@ impl Sight {
     /// reached it.
     pub(super) fn clear(&mut self) -> impl Iterator<Item = &mut f64> {
         self.clear.iter_mut()
+    }
+
+    /// The bound of a block, counted from the first examined one.
+    pub(super) fn bound(&mut self, i: usize) -> &mut f64 {
+        &mut self.clear[i]
+    }
+
+    /// The bounds of the first `count` blocks, one part after the other.
+    pub(super) fn bounds(&mut self, count: usize) -> [&mut [f64]; 2] {
+        let (first, second) = self.clear.as_mut_slices();
+        let of_first = count.min(first.len());
+        [&mut first[..of_first], &mut second[..count - of_first]]
     }
 }

@@ -137,8 +137,8 @@ impl Gauge {
         self.shortest = None;
         if self.filtered.is_some_and(|last| k <= last + self.reach + 2) {
             self.enter(k, point, point);
-            self.begin(point.len());
             if let Some(least_mm) = least_mm {
+                self.begin(point.len());
                 self.let_go(contour, k, least_mm);
             }
         } else {
@@ -162,10 +162,10 @@ impl Gauge {
     ) {
         self.enter(k, set, path);
         self.filtered = Some(k);
-        self.begin(set.len());
         let (reach, moment) = (self.reach as f64, k as f64);
         let within = (moment - reach, moment);
         if let Some(least_mm) = least_mm {
+            self.begin(set.len());
             let now = self.set.leaves(contour, k, within, &mut self.sight, &mut self.found);
             self.keep();
             let before = std::mem::replace(&mut self.shortest, now);
@@ -177,14 +177,18 @@ impl Gauge {
             }
             self.let_go(contour, k, least_mm);
         } else {
-            let mut vector = AxisVec::zeros(set.len());
-            let length = contour.nearest_in_sight(set, within, &mut self.sight, &mut vector);
-            self.shortest = length.map(|length| (length, vector));
+            let new = || (0.0, AxisVec::zeros(set.len()));
+            let (length, vector) = self.shortest.get_or_insert_with(new);
+            match contour.nearest_in_sight(set, within, &mut self.sight, vector) {
+                Some(found) => *length = found,
+                None => self.shortest = None,
+            }
         }
     }
 
-    /// Begins a cycle, in which nothing has been found yet.
+    /// Begins a cycle in which both directions are measured; nothing has been found in it yet.
     fn begin(&mut self, axes: usize) {
+        self.set.measure();
         if self.found.vector.len() == axes {
             self.found.clear();
         } else {
@@ -199,7 +203,7 @@ impl Gauge {
         }
         let old = k.saturating_sub(2 * self.reach + 4);
         for (kept, point) in [(&mut self.set, set), (&mut self.path, path)] {
-            kept.push(point);
+            kept.append(point);
             kept.forget_before(old);
         }
     }

@@ -8,28 +8,30 @@ use std::ops::Range;
 pub(crate) struct SetPath {
     axes: usize,
     first: u64,
+    /// The cycle after the last one.
+    end: u64,
     /// Coordinates of all axes, cycle after cycle.
     values: Vec<f64>,
-    /// Length of the set path in mm at each set point, measured from some point before the first.
+    /// Length of the set path in mm at each set point that is measured, from some point before the first.
     ways: Vec<f64>,
 }
 
 impl SetPath {
     /// Without set points; the next one is that of cycle `first`.
     pub(crate) fn starting(first: u64, axes: usize) -> Self {
-        Self { axes, first, values: Vec::new(), ways: Vec::new() }
+        Self { axes, first, end: first, values: Vec::new(), ways: Vec::new() }
     }
 
     /// Without set points, with memory for those of the cycles `first..=last`.
     pub(crate) fn of((first, last): (u64, u64), axes: usize) -> Self {
         let count = (last + 1).saturating_sub(first) as usize;
         let (values, ways) = (Vec::with_capacity(count * axes), Vec::with_capacity(count));
-        Self { axes, first, values, ways }
+        Self { axes, first, end: first, values, ways }
     }
 
     /// Restarts with the set point of cycle `k` only.
     pub(super) fn restart(&mut self, k: u64, point: &[f64]) {
-        (self.axes, self.first) = (point.len(), k);
+        (self.axes, self.first, self.end) = (point.len(), k, k);
         self.values.clear();
         self.ways.clear();
         self.push(point);
@@ -41,11 +43,31 @@ impl SetPath {
 
     /// Adds the set point of the next cycle.
     pub(crate) fn push(&mut self, point: &[f64]) {
+        debug_assert_eq!(
+            self.first + self.ways.len() as u64,
+            self.end,
+            "the way up to it is known"
+        );
         let way = self.ways.last().map_or(0.0, |way| {
             way + distance(&self.values[self.values.len() - point.len()..], point)
         });
         self.ways.push(way);
+        self.append(point);
+    }
+
+    /// As [`Self::push`], but what needs lengths requires [`Self::measure`] first.
+    pub(super) fn append(&mut self, point: &[f64]) {
         self.values.extend_from_slice(point);
+        self.end += 1;
+    }
+
+    /// Measures the set path up to the last set point.
+    pub(super) fn measure(&mut self) {
+        let known = self.first + self.ways.len() as u64;
+        for k in known..self.end {
+            let way = k.checked_sub(1).and_then(|before| self.line(before).zip(self.ways.last()));
+            self.ways.push(way.map_or(0.0, |((a, b), way)| way + distance(a, b)));
+        }
     }
 
     /// The cycle of the first set point.
@@ -60,15 +82,16 @@ impl SetPath {
 
     /// The cycle after the last one.
     pub(crate) fn end(&self) -> u64 {
-        self.first + self.ways.len() as u64
+        self.end
     }
 
     /// Forgets the set points before cycle `k`; not in every call.
     pub(crate) fn forget_before(&mut self, k: u64) {
-        let old = (k.saturating_sub(self.first) as usize).min(self.ways.len());
-        if 2 * old > self.ways.len() {
+        let count = (self.end - self.first) as usize;
+        let old = (k.saturating_sub(self.first) as usize).min(count);
+        if 2 * old > count {
             self.values.drain(..old * self.axes);
-            self.ways.drain(..old);
+            self.ways.drain(..old.min(self.ways.len()));
             self.first += old as u64;
         }
     }

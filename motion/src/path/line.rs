@@ -127,9 +127,10 @@ impl LinePath {
         }
     }
 
+    /// As [`Self::vector_to`], where the number of axes is known to the compiler.
     #[expect(clippy::inline_always, reason = "a call would not know the number of axes")]
     #[inline(always)]
-    fn away(&self, point: &[f64], out: &mut [f64]) -> f64 {
+    pub(crate) fn away(&self, point: &[f64], out: &mut [f64]) -> f64 {
         let n = point.len();
         let s = self.foot(point);
         let (from, s) = if s >= self.length { (&self.end, 0.0) } else { (&self.start, s.max(0.0)) };

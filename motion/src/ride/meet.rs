@@ -11,6 +11,7 @@ use super::Block;
 use crate::profile::FLAT_MM_S2;
 use crate::profile::roots::enclosed_root;
 use crate::profile::{Phase, RampShape};
+use smallvec::SmallVec;
 
 /// Relative difference of speeds that counts as rounding.
 const SAME: f64 = 1e-8;
@@ -23,6 +24,8 @@ const MISS: f64 = 1e-7;
 const LEAST_MM_S: f64 = 1e-4;
 /// Bisection steps for the moment at which the rise is left.
 const ROUNDS: u32 = 50;
+/// Number of phases of a connection up to which it needs no allocation.
+const FEW: usize = 4;
 /// Accuracy of the moment at which both are closest, relative to the piece.
 const MOMENT: f64 = 1e-12;
 
@@ -56,7 +59,7 @@ struct Beside {
 
 /// A connection and where it ends on the fall; `None`: it stays below the fall without meeting it.
 struct Way {
-    phases: Vec<Phase>,
+    phases: SmallVec<[Phase; FEW]>,
     joint: Option<Joint>,
 }
 
@@ -123,21 +126,26 @@ impl Meet<'_> {
         // the last phase from whose start a connection stays below the fall
         let (mut k, mut stride) = (out.len() - 1, 1);
         let mut late = out.len();
-        while self.way(&out[k]).is_none() {
+        let mut best = loop {
+            if let Some(way) = self.way(&out[k]) {
+                break way;
+            }
             if k == base {
                 return None;
             }
             late = k;
             k = k.saturating_sub(stride).max(base);
             stride *= 2;
-        }
+        };
         while late - k > 1 {
             let mid = usize::midpoint(late, k);
-            if self.way(&out[mid]).is_some() { k = mid } else { late = mid }
+            match self.way(&out[mid]) {
+                Some(way) => (k, best) = (mid, way),
+                None => late = mid,
+            }
         }
         let left = out[k];
         let (mut low, mut high) = (0.0, left.t);
-        let mut best = self.way(&left)?;
         let meets_at_once = best.phases.iter().all(|p| p.t == 0.0);
         if let Some(joint) = best.joint.filter(|j| meets_at_once && j.gap.abs() <= EQUAL)
             && holds(&left)
@@ -169,7 +177,7 @@ impl Meet<'_> {
     fn way(&self, from: &Phase) -> Option<Way> {
         #[cfg(test)]
         crate::closed_forms::add();
-        let mut phases = Vec::new();
+        let mut phases = SmallVec::new();
         let mut at = Phase::state(from.s, from.v, from.a);
         let same = self.same_mm();
         let mut c = self.cells.partition_point(|b| b.end <= at.s + same);

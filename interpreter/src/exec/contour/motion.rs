@@ -181,10 +181,16 @@ pub(in crate::exec) fn local_ends(tilt: &Tilt, start: &[f64], end: &[f64]) -> (A
 /// Time in s of a motion at its programmed velocity, without ramps.
 pub(in crate::exec) fn programmed_time_s(block: &Block) -> f64 {
     let path = &block.path;
-    let of_axes = path.start().iter().zip(path.end().iter()).zip(&block.dynamics.axes);
-    let of_axes = of_axes.filter(|((from, to), _)| from.to_bits() != to.to_bits());
-    let of_axes = of_axes.map(|((from, to), axis)| (to - from).abs() / axis.v_max_mm_s);
-    let of_axes = of_axes.filter(|t| t.is_finite()).fold(0.0, f64::max);
+    let (from, to, axes) = (&path.start()[..], &path.end()[..], &block.dynamics.axes[..]);
+    let n = from.len().min(axes.len());
+    let (from, to, axes) = (&from[..n], &to[..n], &axes[..n]);
+    let mut of_axes = 0.0_f64;
+    for i in 0..n {
+        if from[i].to_bits() != to[i].to_bits() {
+            let time_s = (to[i] - from[i]).abs() / axes[i].v_max_mm_s;
+            of_axes = of_axes.max(if time_s.is_finite() { time_s } else { 0.0 });
+        }
+    }
     match block.feed {
         Feed::PathVelocity(v) => of_axes.max(path.length() / (v * block.feed_ratio.max(1.0))),
         Feed::Duration(t) => of_axes.max(t),

@@ -62,7 +62,8 @@ impl StraightWords {
     }
 
     /// Adds a word of a straight motion: G00 or G01, F or an axis. Returns false for any other word, and for a repetition.
-    #[inline]
+    #[expect(clippy::inline_always, reason = "a call for each word costs as much as the word")]
+    #[inline(always)]
     pub(in crate::exec) fn add(&mut self, decoder: &Decoder, word: &PlainWord) -> bool {
         let value = match &word.value {
             PlainValue::Code(code) => {

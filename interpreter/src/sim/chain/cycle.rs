@@ -90,24 +90,23 @@ impl AxisChain {
         self.control.set_inputs(AxisInputs { additional_mm, ..self.inputs });
         self.show(ipo, set, additional_mm, &mut columns);
         let Self { control, ipo: past, delay, cycle_s, .. } = self;
-        let mut derived = Derived::new(set, [self.set, self.vel, self.acc], *cycle_s);
+        let derived = Derived::new(set, [self.set, self.vel, self.acc], *cycle_s);
+        let mut end = End { ipo, past, delay: *delay, derived, additional_mm, record };
         let mut shown = ShownControl::of(&mut columns, ipo.len());
         let shown_from = if shown.is_some() { 0 } else { last.saturating_sub(1) };
         let mut faulty = false;
-        let mut act = [record.act; 2];
+        let mut act = [end.record.act; 2];
         let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
             if let Some(shown) = &mut shown {
                 shown.put(i, &out);
             }
             act = [act[1], out.act_mm];
-            if i < last && !out.faulty {
-                return;
+            if i == last || out.faulty {
+                faulty |= out.faulty;
+                end.put(i, &out);
             }
-            let [vel, acc, jerk] = derived.at(i);
-            faulty |= out.faulty;
-            let err = set[i] - aligned(past, *delay, (last - i) as u32);
-            *record = recorded([ipo[i], set[i], vel, acc, jerk, err], additional_mm, &out);
         });
+        let mut derived = end.derived;
         let [vel, acc, _] = derived.at(last);
         (self.set, self.vel, self.acc) = (set[last], vel, acc);
         self.act_step = act[1] - act[0];
@@ -203,6 +202,30 @@ impl AxisChain {
     }
 }
 
+/// The record of the last cycle of a row. Apart from the closure that every cycle calls, so that this stays small.
+struct End<'a> {
+    ipo: &'a [f64],
+    /// Interpolated setpoints up to the last one of the row.
+    past: &'a Ring,
+    delay: (u32, f64),
+    derived: Derived<'a>,
+    additional_mm: f64,
+    record: &'a mut AxisRecord,
+}
+
+impl End<'_> {
+    /// Fills the record with cycle `i`.
+    #[inline(never)]
+    fn put(&mut self, i: usize, out: &ControlOutput) {
+        let [vel, acc, jerk] = self.derived.at(i);
+        let set = self.derived.set[i];
+        let later = self.ipo.len() - 1 - i;
+        let err = set - aligned(self.past, self.delay, later as u32);
+        let of_cycle = [self.ipo[i], set, vel, acc, jerk, err];
+        *self.record = recorded(of_cycle, self.additional_mm, out);
+    }
+}
+
 /// Columns of the control: values that are computed together are written together.
 struct ShownControl<'a> {
     positions: bool,
@@ -246,14 +269,23 @@ impl<'a> ShownControl<'a> {
 
     #[inline] // the output is large: used where it is made
     fn put(&mut self, i: usize, out: &ControlOutput) {
-        let [reference, act, load, lag, settling, control @ .., c, f, a, t, n] = &mut self.columns;
         if self.positions {
+            let [reference, act, load, lag, settling, ..] = &mut self.columns;
             reference[i] = out.reference_mm;
             act[i] = out.act_mm;
             load[i] = out.load_mm;
             lag[i] = out.lag_mm;
             settling[i] = out.settling_s;
         }
+        if self.control || self.drive {
+            self.put_others(i, out);
+        }
+    }
+
+    /// The quantities that few traces show.
+    #[inline(never)]
+    fn put_others(&mut self, i: usize, out: &ControlOutput) {
+        let [_, _, _, _, _, control @ .., c, f, a, t, n] = &mut self.columns;
         if self.control {
             let [ff, cmd, vadd, vadd_limited, lag_limit, tcp, tcp_acc] = control;
             ff[i] = out.feedforward.speed_mm_s + out.feedforward.additive_speed_mm_s;

@@ -1,7 +1,7 @@
 //! Blanks and digits.
 
 use crate::source::regions::closed_comment;
-use crate::syntax::number::{digits, integer_in_word};
+use crate::syntax::number::{digits, integer_in_word, word_at};
 
 /// Position after blanks and comments in brackets, which are blanks for the grammar.
 #[inline]
@@ -38,10 +38,9 @@ pub(super) fn before_words(bytes: &[u8], at: usize) -> usize {
 
 /// Digits from `at` on: value and end position; limited in number, so that the value does not overflow.
 pub(super) fn integer(bytes: &[u8], at: usize) -> Option<(u64, usize)> {
-    let bytes = bytes.get(at..)?;
-    if let Some((value, length)) = bytes.first_chunk().and_then(|word| integer_in_word(*word)) {
+    if let Some((value, length)) = word_at(bytes, at).and_then(integer_in_word) {
         return Some((value, at + length));
     }
-    let (count, value) = digits(bytes, 0);
+    let (count, value) = digits(bytes.get(at..)?, 0);
     (1..=18).contains(&count).then_some((value, at + count))
 }

@@ -100,7 +100,7 @@ impl Sum<'_> {
             _ => {
                 let negative = first == b'-';
                 self.at += usize::from(negative);
-                let (x, length) = short_decimal(&self.bytes[self.at..])?;
+                let (x, length) = short_decimal(self.bytes, self.at)?;
                 self.at += length;
                 ExprKind::Number(if negative { -x } else { x })
             }

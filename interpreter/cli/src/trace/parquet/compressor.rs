@@ -7,25 +7,30 @@ use std::io;
 #[derive(Debug)]
 pub(super) struct Compressor {
     snappy: snap::raw::Encoder,
-    output: Vec<u8>,
+    /// The last page and the room behind it.
+    output: Bytes,
 }
 
 impl Compressor {
     /// Without memory yet.
     pub(super) fn new() -> Self {
-        Self { snappy: snap::raw::Encoder::new(), output: Vec::new() }
+        Self { snappy: snap::raw::Encoder::new(), output: Bytes::new() }
     }
 
-    /// Bytes, compressed.
+    /// Bytes, compressed. The result shares its memory with the next one, which takes new memory if it is still in use.
     ///
     /// # Errors
     /// The library's, beyond 4 GiB.
     pub(super) fn compress(&mut self, bytes: &[u8]) -> io::Result<Bytes> {
         let room = snap::raw::max_compress_len(bytes.len());
-        if self.output.len() < room {
-            self.output.resize(room, 0);
+        // the last page is in its chunk by now, so its memory is free
+        let last = std::mem::take(&mut self.output);
+        let mut output = last.try_into_mut().unwrap_or_default();
+        if output.len() < room {
+            output.resize(room, 0);
         }
-        let length = self.snappy.compress(bytes, &mut self.output).map_err(io::Error::other)?;
-        Ok(Bytes::copy_from_slice(&self.output[..length]))
+        let length = self.snappy.compress(bytes, &mut output).map_err(io::Error::other)?;
+        self.output = output.freeze();
+        Ok(self.output.slice(..length))
     }
 }

@@ -1,6 +1,7 @@
 //! Positions programmed by the words of a block.
 
 use super::Coordinates;
+use super::active::Active;
 use super::kinds::{OffsetKind, Target};
 use kontur_motion::axis::AxisVec;
 
@@ -55,33 +56,38 @@ impl Coordinates {
         offsets: Option<&[f64]>,
         words: impl IntoIterator<Item = Target>,
     ) {
+        let own = if offsets.is_none() { Some(self.active_offsets()) } else { None };
+        let n = self.target.len();
+        let offsets = &offsets.or(own.as_deref()).unwrap_or_default()[..n];
+        let Active { mirrored, applied, .. } = &mut self.active;
+        let (mirrored, applied) = (&mirrored[..n], &mut applied[..n]);
+        let (word, program) = (&mut self.word[..n], &mut self.program[..n]);
+        let target = &mut self.target[..n];
         let mut framed = [None; 3];
         for Target { axis, value, absolute } in words {
-            self.word[axis] = value;
+            word[axis] = value;
             if absolute {
-                self.program[axis] = value;
+                program[axis] = value;
             } else {
-                self.program[axis] += value;
+                program[axis] += value;
             }
-            match if self.plain { None } else { self.main_index(axis) } {
-                Some(main) => framed[main] = Some(absolute),
-                None => self.program_plain(offsets, axis, value, absolute),
+            let main = || self.main.iter().position(|main| *main == Some(axis));
+            if !self.plain
+                && let Some(main) = main()
+            {
+                framed[main] = Some(absolute);
+                continue;
+            }
+            let value = if mirrored[axis] { -value } else { value };
+            if absolute {
+                applied[axis] = offsets[axis];
+                target[axis] = value + offsets[axis];
+            } else {
+                target[axis] += value;
             }
         }
         if !self.plain && framed.iter().any(Option::is_some) {
             self.program_in_frame(framed);
-        }
-    }
-
-    #[inline]
-    fn program_plain(&mut self, offsets: Option<&[f64]>, axis: usize, value: f64, absolute: bool) {
-        let value = if self.active.mirrored[axis] { -value } else { value };
-        if absolute {
-            self.active.applied[axis] =
-                offsets.map_or_else(|| self.active_offset(axis), |offsets| offsets[axis]);
-            self.target[axis] = value + self.active.applied[axis];
-        } else {
-            self.target[axis] += value;
         }
     }
 
