@@ -95,14 +95,19 @@ impl Geometry {
         Err(Fault::unsupported(what, span))
     }
 
+    /// The axis of the tool length with its direction, 1 or -1: that of `#TLAX`, otherwise the third one of the plane.
+    pub(in crate::exec) fn tool_axis(&self, normal: usize) -> Option<(usize, f64)> {
+        let third = self.coordinates.main_axis(normal).map(|axis| (axis, 1.0));
+        self.tools.length_axis.or(third)
+    }
+
     /// Applies the offsets of the active tool; its length along the third axis of the plane.
     pub(in crate::exec) fn apply_tool(&mut self, [_, _, normal]: [usize; 3]) {
         if self.coordinates.is_without_tools() {
             return;
         }
         let mut offsets = AxisVec::zeros(self.coordinates.target().len());
-        let third = self.coordinates.main_axis(normal).map(|axis| (axis, 1.0));
-        if let Some((axis, sign)) = self.tools.length_axis.or(third) {
+        if let Some((axis, sign)) = self.tool_axis(normal) {
             offsets[axis] = sign * self.tools.active.length_mm;
         }
         for (axis, value) in &self.tools.active.offsets_mm {

@@ -2,8 +2,8 @@
 //!
 //! Source: TF5200 online tool compensation (213655947, 213664139, 213718539).
 //!
-//! Assumptions, where the documents are silent: the way counts from `#OTC ON` on, with RADIUS only the way along the
-//! contour of G41 or G42; a change of the wear, or of the direction at a corner, is followed with the acceleration
+//! Assumptions, where the documents are silent: the way counts from `#OTC ON` or the selection of the wheel on, with
+//! RADIUS only the way along the contour of G41 or G42; a change of the wear, or of the direction at a corner, is followed with the acceleration
 //! limit of the axis (P-AXIS-00008) times ACC_WEIGHT; the offset enters where additional positions do, after the
 //! filters.
 
@@ -46,8 +46,8 @@ pub(super) struct Wear {
     engaged: Option<([usize; 2], bool)>,
     /// Direction of the contour in the plane.
     along: Option<[f64; 2]>,
-    /// Way in mm that counts.
-    way_mm: f64,
+    /// Wear in mm by the way of this wheel, each part with the constant that was valid on it.
+    worn_mm: f64,
     /// External wear.
     outside_mm: f64,
     followers: SmallVec<[Follower; 4]>,
@@ -56,8 +56,9 @@ pub(super) struct Wear {
 impl Wear {
     /// `#OTC ON`, or `None` for OFF.
     pub(super) fn set(&mut self, setting: Option<WearSetting>, axes: usize) {
-        if self.setting.is_none() {
-            self.way_mm = 0.0;
+        let wheel = |setting: Option<WearSetting>| setting.map(|s| s.wheel);
+        if wheel(setting) != wheel(self.setting) {
+            self.worn_mm = 0.0;
         }
         self.setting = setting;
         self.acceleration_ratio = setting.map_or(self.acceleration_ratio, |s| s.acceleration_ratio);
@@ -105,12 +106,12 @@ impl Wear {
         let mut targets: SmallVec<[f64; 4]> = SmallVec::from_elem(0.0, self.followers.len());
         if let Some(setting) = self.setting {
             if self.engaged.is_some() || setting.part != WornPart::Radius {
-                self.way_mm += ds;
+                self.worn_mm += setting.ratio * ds;
             }
             let outside = self.outside_mm.clamp(-setting.most_mm, setting.most_mm);
-            let wear_mm = setting.ratio * self.way_mm + outside;
+            let wear_mm = self.worn_mm + outside;
             match (setting.part, self.engaged, self.along) {
-                (WornPart::Length { axis }, _, _) => targets[axis] = -wear_mm,
+                (WornPart::Length { axis, sign }, _, _) => targets[axis] = -sign * wear_mm,
                 // the wheel approaches the contour, which is on its right if the wheel is to the left of the contour
                 (WornPart::Radius, Some(([x, y], left)), Some([u, v])) => {
                     let to_contour = if left { [v, -u] } else { [-v, u] };

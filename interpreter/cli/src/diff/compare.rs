@@ -81,6 +81,16 @@ struct Pair {
     worst: Option<Difference>,
 }
 
+impl Pair {
+    /// `None` if two cells of the column are equal.
+    fn excess(&self, a: &[u8], b: &[u8]) -> Option<Excess> {
+        if self.name == "file" && same_file(a, b) {
+            return None;
+        }
+        excess(a, b, self.tolerance)
+    }
+}
+
 /// A comparison under way.
 pub(super) struct Comparison {
     pairs: Vec<Pair>,
@@ -154,7 +164,7 @@ impl Comparison {
     fn compare(&mut self, a: &ByteRecord, b: &ByteRecord) {
         for pair in &mut self.pairs {
             let (Some(cell_a), Some(cell_b)) = (a.get(pair.a), b.get(pair.b)) else { continue };
-            let Some(excess) = excess(cell_a, cell_b, pair.tolerance) else { continue };
+            let Some(excess) = pair.excess(cell_a, cell_b) else { continue };
             pair.rows += 1;
             let is_worst = |other: &Option<Difference>| match (excess.size, other) {
                 (None, _) => false,
@@ -202,7 +212,7 @@ impl Comparison {
         let equal = |a: &ByteRecord, b: &ByteRecord| {
             let mut texts = true;
             for (p, (a, b)) in timeless().zip(a.iter().zip(b)) {
-                match (excess(a, b, p.tolerance), p.tolerance) {
+                match (p.excess(a, b), p.tolerance) {
                     (None, _) => {}
                     (Some(_), None) => texts = false,
                     (Some(_), Some(_)) => return None,
@@ -248,6 +258,13 @@ impl Comparison {
 /// A difference beyond the tolerance.
 struct Excess {
     size: Option<f64>,
+}
+
+/// Whether two cells of the column `file` name the same file: the folder depends on where a program was started.
+fn same_file(a: &[u8], b: &[u8]) -> bool {
+    let name =
+        |cell: &[u8]| cell.rsplit(|byte| matches!(byte, b'/' | b'\\')).next().map(<[u8]>::to_vec);
+    name(a) == name(b)
 }
 
 /// `None` if two cells are equal within the tolerance.

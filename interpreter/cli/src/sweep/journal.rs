@@ -9,6 +9,7 @@ use crate::Error;
 use crate::args::SweepArgs;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
+use std::hash::{DefaultHasher, Hasher as _};
 use std::io::{self, BufRead as _, BufReader, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -103,15 +104,33 @@ pub(super) fn beside(output: &Path) -> PathBuf {
     output.with_file_name(name)
 }
 
+/// A hash of the contents of a file, because a changed one may have the size and the time of the old one.
+fn contents(path: &Path) -> Option<u64> {
+    if !path.metadata().ok()?.is_file() {
+        return None;
+    }
+    let mut file = BufReader::new(File::open(path).ok()?);
+    let mut hasher = DefaultHasher::new();
+    loop {
+        let piece = file.fill_buf().ok()?;
+        if piece.is_empty() {
+            return Some(hasher.finish());
+        }
+        hasher.write(piece);
+        let length = piece.len();
+        file.consume(length);
+    }
+}
+
 /// The identity of a sweep: the version, the options, and the contents of the files.
 fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
     let mut reads = reads.to_vec();
     reads.sort();
     let files: Vec<String> = reads
         .iter()
-        .map(|path| match path.metadata() {
-            Ok(m) => format!("{} {} {:?}", path.display(), m.len(), m.modified().ok()),
-            Err(_) => path.display().to_string(),
+        .map(|path| match contents(path) {
+            Some(contents) => format!("{} {contents:016x}", path.display()),
+            None => path.display().to_string(),
         })
         .collect();
     let options =

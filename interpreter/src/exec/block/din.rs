@@ -249,9 +249,15 @@ impl Decoder {
             let outcome = self.modal.program_feed(feed, &mut self.report);
             self.report.keep(outcome);
         }
+        let plane = self.modal.plane;
         for g in &words.g {
             let outcome = self.mode(g, words);
             self.report.keep(outcome);
+        }
+        if let Some(g) = words.group(Group::Plane).filter(|_| self.modal.plane != plane) {
+            let (motion, geometry) = (&self.motion, &self.geometry);
+            let worn = motion.apply_wear(geometry, &self.modal, &mut self.contour, g.span);
+            self.report.keep(worn);
         }
         if let Some(g) = takes_axes {
             let outcome = match g.row.act {

@@ -56,7 +56,7 @@ fn refresh(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     call.no_more_words()?;
     decoder.geometry.coordinates.tool_programmed();
     decoder.geometry.apply_tool(decoder.modal.plane.main_axes());
-    Ok(())
+    decoder.motion.apply_wear(&decoder.geometry, &decoder.modal, &mut decoder.contour, call.span())
 }
 
 fn length_axis(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
@@ -84,7 +84,7 @@ fn length_axis(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     };
     decoder.geometry.tools.length_axis = axis;
     decoder.geometry.apply_tool(decoder.modal.plane.main_axes());
-    Ok(())
+    decoder.motion.apply_wear(&decoder.geometry, &decoder.modal, &mut decoder.contour, call.span())
 }
 
 fn no_length_axis(decoder: &Decoder, span: Span) -> Box<Fault> {

@@ -14,7 +14,7 @@ use crate::machine::ToolKind;
 use crate::syntax::ast::Span;
 
 impl MotionState {
-    /// Passes the settings to the simulation: `#OTC ON`, or changed tool data while it is on.
+    /// Passes the settings to the simulation: `#OTC ON`, or while it is on, changed tool data or another axis of its length.
     pub(in crate::exec) fn apply_wear(
         &self,
         geometry: &Geometry,
@@ -38,16 +38,17 @@ impl MotionState {
             WornPart::Radius
         } else {
             let normal = modal.plane.main_axes()[2];
-            let Some(axis) = geometry.coordinates.main_axis(normal) else {
+            let Some((axis, sign)) = geometry.tool_axis(normal) else {
                 let text = "#OTC [LENGTH]: the channel has no axis perpendicular to the plane";
                 return Err(Fault::new(Condition::AxisOrCommandExpected, text, span));
             };
-            WornPart::Length { axis }
+            WornPart::Length { axis, sign }
         };
         let by_way = wear.source != WearSource::Outside;
         let from_outside = wear.source != WearSource::Way;
         let setting = WearSetting {
             part,
+            wheel: geometry.tools.data,
             ratio: if by_way { wear.ratio.unwrap_or(tool.wear_ratio) } else { 0.0 },
             most_mm: if from_outside { tool.most_infeed_mm } else { 0.0 },
             from_outside,

@@ -225,14 +225,16 @@ pub(crate) struct BandingRun {
 }
 
 /// The dimension of a grinding wheel that wears.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum WornPart {
     /// The radius: the axes of the plane compensate it while the tool is at the contour.
     Radius,
     /// The length.
     Length {
-        /// Path axis perpendicular to the plane.
+        /// Path axis along the tool.
         axis: usize,
+        /// Direction of the tool in this axis, 1 or -1.
+        sign: f64,
     },
 }
 
@@ -241,6 +243,8 @@ pub(crate) enum WornPart {
 pub(crate) struct WearSetting {
     /// The dimension that wears.
     pub(crate) part: WornPart,
+    /// D of the wheel.
+    pub(crate) wheel: u32,
     /// Wear in mm per mm of travel.
     pub(crate) ratio: f64,
     /// Whether external wear is included (input `wear_mm`).

@@ -49,7 +49,7 @@ impl Builder<'_> {
         let of = |names: &[&str]| names.iter().any(|name| command.is(name));
         let needs = if of(&["GET CMDPOS", "GET ACTPOS", "SET IPO SOLLPOS"]) {
             Some((Condition::PositionRequest, "two positions"))
-        } else if of(&["CS", "ACS"]) {
+        } else if of(&["CS", "CS DEF", "CS ADD", "CS SET", "ACS", "ACS DEF"]) {
             Some((Condition::CoordinateSystemSyntax, "two values of a coordinate system"))
         } else if of(&["CALL AX", "SET AX"]) {
             Some((Condition::ExchangeNumber, "axis number and axis index"))
@@ -273,7 +273,22 @@ impl Builder<'_> {
                 _ => {}
             }
         }
+        if let Some(ItemValue::List(group)) = &declaration.value {
+            self.separated_values(group);
+        }
         declaration
+    }
+
+    /// 20904 where no comma separates two values of an array: a negative one would be subtracted from the one before it.
+    fn separated_values(&mut self, group: &Group) {
+        let joined = group.items.windows(2).find_map(|pair| {
+            let (end, start) = (pair[0].span.end(), pair[1].span.start);
+            (!self.masked.get(end as usize..start as usize)?.contains(',')).then_some(pair[1].span)
+        });
+        if let Some(at) = joined {
+            let text = "a comma is missing between two values of an array";
+            self.report(Problem::new(Condition::DeclarationCharacter, at, text));
+        }
     }
 
     pub(super) fn control(&mut self, pair: Pair<'_, Rule>, span: Span) -> Body {

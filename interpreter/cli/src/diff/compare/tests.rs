@@ -155,6 +155,21 @@ fn rows_and_columns_count() {
     assert!(o.equal, "order does not matter");
 }
 
+/// The folder of a file depends on where the program was started.
+#[test]
+fn files_are_compared_by_their_names() {
+    let header = "t_s,line,block,file";
+    for (a, b, equal) in [
+        ("nc/part.nc", "./nc/part.nc", true),
+        ("nc/part.nc", "C:\\work\\nc\\part.nc", true),
+        ("part.nc", "other_part.nc", false),
+        ("part.nc", "", false),
+    ] {
+        let row = |file: &str| [format!("0,1,,{file}")];
+        assert_eq!(outcome(header, &row(a), header, &row(b)).equal, equal, "{a} {b}");
+    }
+}
+
 #[test]
 fn what_is_no_number_equals_itself_alone() {
     let values = ["1", "1e300", "inf", "-inf", "nan", "NaN", ""];
