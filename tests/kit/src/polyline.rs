@@ -7,14 +7,18 @@
 pub fn from_polyline<P: AsRef<[f64]>>(point: &[f64], polyline: &[P]) -> Vec<f64> {
     let mut best = (f64::INFINITY, 0, 0.0);
     for (k, ends) in polyline.windows(2).enumerate() {
-        let axes = || ends[0].as_ref().iter().zip(ends[1].as_ref()).zip(point);
-        let sums = axes().fold((0.0, 0.0), |(square, dot), ((a, b), p)| {
-            let d = b - a;
-            (square + d * d, dot + d * (p - a))
-        });
-        let share = if sums.0 > 0.0 { (sums.1 / sums.0).clamp(0.0, 1.0) } else { 0.0 };
-        let square: f64 =
-            axes().map(|((a, b), p)| p - a - share * (b - a)).map(|off| off * off).sum();
+        let (start, end) = (ends[0].as_ref(), ends[1].as_ref());
+        let (mut length2, mut dot, mut square) = (0.0, 0.0, 0.0);
+        for ((a, b), p) in start.iter().zip(end).zip(point) {
+            length2 += (b - a) * (b - a);
+            dot += (b - a) * (p - a);
+        }
+        let share: f64 = if length2 > 0.0 { dot / length2 } else { 0.0 };
+        let share = share.clamp(0.0, 1.0);
+        for ((a, b), p) in start.iter().zip(end).zip(point) {
+            let off = p - a - share * (b - a);
+            square += off * off;
+        }
         if square < best.0 {
             best = (square, k, share);
         }
