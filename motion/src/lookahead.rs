@@ -254,7 +254,6 @@ impl Window<'_> {
             return Ok((profile, Vec::new()));
         }
         let worst = most_exceeded(blocks, feeds, caps, s, &profile);
-        let divides = |b| self.only_divides(b);
         let mut steps = Vec::new();
         let along = |cells: Vec<Cell>| {
             let ride = ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s)?;
@@ -264,7 +263,7 @@ impl Window<'_> {
                 gentle && self.part(s, from, to).is_faster_with_knots(&steps, ride.duration());
             (!slower).then_some(ride)
         };
-        let ridden = (worst.is_some() || s.is_uneven(blocks, divides, profile.peak()))
+        let ridden = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
             .then(|| cells(blocks, feeds, caps, s.first, s.end))
             .flatten()
             .and_then(along);

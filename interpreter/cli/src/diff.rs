@@ -25,7 +25,7 @@ use table::Table;
 use text::text;
 use verdict::Verdict;
 
-/// Compares; exit code 0 if equal, 1 if different.
+/// Compares; exit code 0 if equal, 1 if different or if a program that was run has ended with an error.
 ///
 /// # Errors
 /// [`Error`] if a trace cannot be read or a program cannot be run.
@@ -55,10 +55,11 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
         for message in a.take_messages() {
             console.announce(&message);
         }
+        let aborted = failed(&names, [a.has_failed(), false]);
         let program = (!is_a).then_some(args.a.as_path());
         let verdict = || recording::verdict(&outcome, program);
         let words = || recording::text(&names, &outcome);
-        let done = Done { names: &names, outcome: &outcome, equal: outcome.equal };
+        let done = Done { names: &names, outcome: &outcome, equal: outcome.equal, aborted };
         return done.report(args.format, words, verdict, console);
     }
     // a fresh run produces the columns of the trace that it is compared with
@@ -81,11 +82,17 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
     for message in a.take_messages().iter().chain(&b.take_messages()) {
         console.announce(message);
     }
+    let aborted = failed(&names, [a.has_failed(), b.has_failed()]);
     let outcome = comparison.finish();
     let program = [(is_a, &args.a), (is_b, &args.b)].into_iter().find(|(trace, _)| !trace);
     let verdict = || verdict::of(&outcome, program.map(|(_, path)| path.as_path()));
-    let done = Done { names: &names, outcome: &outcome, equal: outcome.equal };
+    let done = Done { names: &names, outcome: &outcome, equal: outcome.equal, aborted };
     done.report(args.format, || text(&names, &outcome), verdict, console)
+}
+
+/// The names of the runs that have failed.
+fn failed(names: &[String; 2], runs: [bool; 2]) -> Vec<&str> {
+    names.iter().zip(runs).filter_map(|(name, failed)| failed.then_some(name.as_str())).collect()
 }
 
 /// Refuses the standard input.
@@ -102,6 +109,8 @@ struct Done<'a, O> {
     names: &'a [String; 2],
     outcome: &'a O,
     equal: bool,
+    /// Programs that were run and have ended with an error: even a trace that agrees is not that of a finished program.
+    aborted: Vec<&'a str>,
 }
 
 impl<O: Serialize> Done<'_, O> {
@@ -113,15 +122,29 @@ impl<O: Serialize> Done<'_, O> {
         console: &mut Console,
     ) -> Result<Exit, Error> {
         let [a, b] = self.names;
+        let verdict = || {
+            let mut verdict = verdict();
+            self.aborted.iter().for_each(|program| verdict.aborted(program));
+            verdict
+        };
         let printed = match format {
-            OutputForm::Text => text(),
+            OutputForm::Text => {
+                let ended = self
+                    .aborted
+                    .iter()
+                    .map(|program| format!("{program} was refused, or ended with an error\n"));
+                text() + &ended.collect::<String>()
+            }
             OutputForm::Json => {
-                serde_json::json!({ "a": a, "b": b, "result": self.outcome }).to_string()
+                let (aborted, result) = (&self.aborted, self.outcome);
+                serde_json::json!({ "a": a, "b": b, "aborted": aborted, "result": result })
+                    .to_string()
             }
             OutputForm::Junit => verdict().junit(self.names),
             OutputForm::Github => verdict().github(self.names),
         };
         console.print(&printed)?;
-        Ok(if self.equal { Exit::Finished } else { Exit::Aborted })
+        let passed = self.equal && self.aborted.is_empty();
+        Ok(if passed { Exit::Finished } else { Exit::Aborted })
     }
 }

@@ -165,6 +165,27 @@ fn diff_names_line_and_recognises_a_shift() {
     assert!(out.contains("  times  row 1 is at 0.001000 s in A and at 0.002000 s in B: "), "{out}");
 }
 
+/// An approved trace of a program that does not reach its end must not stay approved.
+#[test]
+fn diff_fails_with_the_program_that_it_runs() {
+    let f = Folder::new();
+    let limit = ["--max-time", "0.5"];
+    let run = [&["run", "@corner.nc", "-o", "@a.csv"][..], &limit].concat();
+    assert_eq!(f.call(&run).0, Exit::Aborted);
+    let words = [
+        ("text", "equal: "),
+        ("text", "corner.nc was refused, or ended"),
+        ("json", "corner.nc\"]"),
+        ("junit", "name=\"run of"),
+        ("github", "::error title=run of"),
+    ];
+    for (format, word) in words {
+        let call = [&["diff", "@a.csv", "@corner.nc", "--format", format][..], &limit].concat();
+        let (exit, out, _) = f.call(&call);
+        assert_eq!((exit, out.contains(word)), (Exit::Aborted, true), "{format}: {out}");
+    }
+}
+
 #[test]
 fn report_is_one_self_contained_file() {
     let f = Folder::new();

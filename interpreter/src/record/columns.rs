@@ -107,8 +107,8 @@ pub struct Column {
     pub decimals: u8,
     /// The group it belongs to.
     pub group: &'static str,
-    /// Whether it only repeats: the actual position of a load that cannot be elsewhere, or the zero of an unused
-    /// addition.
+    /// Whether it only repeats: the actual position of a load that cannot be elsewhere, the zero of an unused
+    /// addition, or the only file of a program.
     pub repeats: bool,
     /// `mm`, `deg/s2`, `Nm`, ...; empty for words, flags, counts and values in the drive's format.
     pub unit: String,
@@ -218,11 +218,13 @@ pub fn all(facts: &Facts) -> Vec<Column> {
         ..plain(name, group, Content::Path(value))
     };
     let time = Column { decimals: 6, unit: "s".to_owned(), ..plain("t_s", "time", Content::Time) };
-    let mut columns =
-        vec![time, plain("line", "time", Content::Line), plain("block", "time", Content::Block)];
-    if facts.files.several() {
-        columns.push(plain("file", "time", Content::File));
-    }
+    let file = Column { repeats: !facts.files.several(), ..plain("file", "time", Content::File) };
+    let mut columns = vec![
+        time,
+        plain("line", "time", Content::Line),
+        plain("block", "time", Content::Block),
+        file,
+    ];
     columns.push(number(Unit::Length, "s_mm", "path", |r| r.path.s_mm));
     columns.push(number(Unit::Speed, "v_mm_s", "path", |r| r.path.v_mm_s));
     columns.push(number(Unit::Acceleration, "a_mm_s2", "path", |r| r.path.a_mm_s2));
@@ -302,9 +304,12 @@ pub fn select(signals: &str, facts: &Facts) -> Result<Vec<Column>, String> {
     }
     let by_default = |c: &Column| DEFAULT_GROUPS.contains(&c.group) && !c.repeats;
     let asked = |c: &Column, word: &str| {
-        word == c.group || word == c.name || word == DEFAULT_SIGNALS && by_default(c)
+        word == c.name
+            || word == c.group && c.group != "time"
+            || word == DEFAULT_SIGNALS && by_default(c)
     };
-    let wanted = |c: &Column| c.group == "time" || words.iter().any(|word| asked(c, word));
+    let always = |c: &Column| c.group == "time" && !c.repeats;
+    let wanted = |c: &Column| always(c) || words.iter().any(|word| asked(c, word));
     Ok(all.into_iter().filter(wanted).collect())
 }
 
@@ -363,6 +368,9 @@ mod tests {
     #[test]
     fn groups_and_names_mix_and_time_is_always_there() {
         assert_eq!(names("X_lag_mm").join(","), "t_s,line,block,X_lag_mm");
+        // the only file of a program, by name
+        assert_eq!(names("file,X_lag_mm").join(","), "t_s,line,block,file,X_lag_mm");
+        assert_eq!(names("time,X_lag_mm").join(","), "t_s,line,block,X_lag_mm");
         assert_eq!(
             names("kin , X_torque_nm,X_cmd_drive").join(","),
             "t_s,line,block,X_vel_mm_s,X_acc_mm_s2,X_jerk_mm_s3,C_vel_deg_s,C_acc_deg_s2,C_jerk_deg_s3,\

@@ -50,7 +50,13 @@ pub(super) fn recognise(code: &str, error: usize, brace: Option<Span>) -> Option
 
 /// Mistakes in a block that parses, because its words have another meaning.
 pub(super) fn hidden(code: &str) -> Option<Found> {
-    label(code).or_else(|| letter_before_word(code))
+    label(code).or_else(|| letter_before_word(code)).or_else(|| value_of_statement(code))
+}
+
+/// `CASE 2`, `WHILE 1`: a word of an axis or a spindle with this name, as it is written.
+fn value_of_statement(code: &str) -> Option<Found> {
+    let (at, word) = first_word(code)?;
+    code[at + word.len()..].starts_with([' ', '\t']).then(|| without_dollar(code))?
 }
 
 /// `FOR P1=1,3,1`, `IF P1==1`, `GOTO N10`.
@@ -208,6 +214,10 @@ mod tests {
         ] {
             let found = recognise(block, error, None).expect(block);
             assert_eq!((found.problem.span.start, &*found.rest(block)), (place, rest), "{block}");
+        }
+        for block in ["CASE 2", "N10 WHILE 1", "until 5"] {
+            let found = hidden(block).expect(block);
+            assert!(found.rest(block).trim_start_matches("N10").trim().is_empty(), "{block}");
         }
         let found = hidden("G0l X1 F100").expect("a figure");
         assert_eq!((found.problem.span.start, &*found.rest("G0l X1 F100")), (2, "G01 X1 F100"));

@@ -135,23 +135,22 @@ impl Stretch<'_> {
         self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
     }
 
-    /// Whether one of its blocks, or one divided line, permits more than all of them together and is long enough at
-    /// this speed to use it. `divides`: whether the boundary before a block only divides a line.
-    pub(super) fn is_uneven(
-        &self,
-        blocks: &[Outline],
-        divides: impl Fn(usize) -> bool,
-        v: f64,
-    ) -> bool {
-        let mut length = 0.0;
-        (self.first..self.end).any(|i| {
-            let block = &blocks[i];
+    /// Whether consecutive blocks permit more than all of them together and are long enough at this speed to use it.
+    pub(super) fn is_uneven(&self, blocks: &[Outline], v: f64) -> bool {
+        let mut run: Option<(f64, Rates)> = None;
+        blocks[self.first..self.end].iter().any(|block| {
             if block.queued.slope.nearly_equals(&self.slope, UNEVEN) {
+                run = None;
                 return false;
             }
-            let goes_on = i > self.first && divides(i);
-            length = if goes_on { length + block.length } else { block.length };
-            rates(&block.queued).is_some_and(|r| has_hill(length, v, &r))
+            let Some(own) = rates(&block.queued) else { return false };
+            let (length, weakest) = match &run {
+                Some((length, rates)) => (length + block.length, rates.weaker(&own)),
+                None => (block.length, own),
+            };
+            let uses = has_hill(length, v, &weakest);
+            run = Some((length, weakest));
+            uses
         })
     }
 

@@ -26,6 +26,23 @@ pub(crate) struct Rates {
     pub(crate) ramps: [f64; 4],
 }
 
+impl Rates {
+    /// The smaller accelerations with ramps of the smaller jerk.
+    pub(crate) fn weaker(&self, other: &Self) -> Self {
+        let plateaus = |r: &Self| [r.acc, r.acc, r.dec, r.dec];
+        let (own, others) = (plateaus(self), plateaus(other));
+        let ramp = |i: usize| {
+            own[i].min(others[i]) * (self.ramps[i] / own[i]).max(other.ramps[i] / others[i])
+        };
+        Self {
+            shape: self.shape,
+            acc: own[0].min(others[0]),
+            dec: own[2].min(others[2]),
+            ramps: std::array::from_fn(ramp),
+        }
+    }
+}
+
 impl RampedLimits {
     /// Limits referred to the path.
     ///

@@ -46,7 +46,7 @@ pub(super) struct ColumnOutcome {
 /// The result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(super) struct Outcome {
-    /// No difference beyond the tolerances, same columns, same number of rows.
+    /// No difference beyond the tolerances, same columns, same number of rows, and at least one row.
     pub(super) equal: bool,
     /// Rows of A.
     pub(super) rows_a: u64,
@@ -217,7 +217,9 @@ impl Comparison {
     pub(super) fn finish(mut self) -> Outcome {
         let o = &mut self.outcome;
         let same_columns = o.only_a.is_empty() && o.only_b.is_empty();
-        o.equal = o.first.is_none() && o.rows_a == o.rows_b && same_columns;
+        // two empty traces show nothing that could agree
+        let rows = o.rows_a == o.rows_b && o.rows_a > 0;
+        o.equal = o.first.is_none() && rows && same_columns;
         if let Some(delay) = self.delays.found().filter(|_| !o.equal) {
             o.shift_cycles = Some(delay.rows);
             o.shift_leaves_texts = !delay.texts;

@@ -170,6 +170,16 @@ impl Table {
         Ok(found.then_some(&self.row))
     }
 
+    /// Whether this was a run that was refused or has ended with an error.
+    pub(super) fn has_failed(&self) -> bool {
+        match &self.rows {
+            Origin::File(_) => false,
+            #[cfg(feature = "parquet")]
+            Origin::Parquet(_) => false,
+            Origin::Run(fresh) => fresh.run.totals().aborted,
+        }
+    }
+
     /// The messages of a fresh run.
     pub(super) fn take_messages(&mut self) -> Vec<Diagnostic> {
         match &mut self.rows {

@@ -23,8 +23,10 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
     if let Some(worst) = &o.worst {
         writeln!(out, "  worst  {}", sentence(worst))?;
     }
-    if o.rows_a != o.rows_b {
-        writeln!(out, "  rows   {} in A, {} in B", o.rows_a, o.rows_b)?;
+    match [o.rows_a, o.rows_b] {
+        [0, 0] => writeln!(out, "  rows   none in A and B, nothing is compared")?,
+        [a, b] if a != b => writeln!(out, "  rows   {a} in A, {b} in B")?,
+        _ => {}
     }
     if let Some(times) = o.columns.iter().find(|c| c.column == "t_s") {
         let Difference { row, a, b, .. } = &times.first;

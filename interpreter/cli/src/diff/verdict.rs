@@ -48,8 +48,11 @@ pub(super) fn of(outcome: &Outcome, program: Option<&Path>) -> Verdict {
         name: name.to_owned(),
         failure: message.map(|message| Failure { message, details: Vec::new(), place: None }),
     };
-    let (a, b) = (outcome.rows_a, outcome.rows_b);
-    signals.push(whole("number of rows", (a != b).then(|| format!("{a} rows in A, {b} in B"))));
+    let rows = match [outcome.rows_a, outcome.rows_b] {
+        [0, 0] => Some("no rows in A and B".to_owned()),
+        [a, b] => (a != b).then(|| format!("{a} rows in A, {b} in B")),
+    };
+    signals.push(whole("number of rows", rows));
     let only = |side: &str, columns: &[String]| {
         let names: Vec<String> = columns.iter().map(|c| brief(c)).collect();
         (!names.is_empty()).then(|| format!("only in {side}: {}", names.join(", ")))
@@ -83,6 +86,13 @@ fn nc_line(d: &Difference, program: Option<&Path>) -> Option<(String, u32)> {
 }
 
 impl Verdict {
+    /// Adds the verdict on the run of a program that has ended with an error.
+    pub(super) fn aborted(&mut self, program: &str) {
+        let message = "the program was refused, or ended with an error".to_owned();
+        let failure = Failure { message, details: Vec::new(), place: None };
+        self.signals.push(Signal { name: format!("run of {program}"), failure: Some(failure) });
+    }
+
     /// `JUnit` XML: a test suite with a case for each signal. Valid by the schema `junit-10.xsd` of Jenkins' xUnit plugin, which does not know the
     /// attribute `skipped` of the whole report.
     pub(super) fn junit(&self, [a, b]: &[String; 2]) -> String {

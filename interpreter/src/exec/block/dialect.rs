@@ -126,6 +126,11 @@ impl Seen {
                 report.note_once(Subject::G(g.row.number), fault);
             }
         }
+        if !self.own {
+            for (subject, text, span) in beside_others(words) {
+                report.note_once(subject, Fault::new(Condition::Dialect, text, span));
+            }
+        }
         if let (false, Some((tool @ 100.0..1000.0, span))) = (self.own, words.tool)
             && span.len == 5
         {
@@ -150,6 +155,29 @@ impl Seen {
             report.note_once("E", Fault::new(Condition::Dialect, text, span));
         }
     }
+}
+
+/// Words that mean something else beside the other words of their block, as programs of other controls have them:
+/// `G23 G40` (stored limits), `G98 R2` (where a drilling cycle returns to) and `M29 S1000` (rigid tapping).
+fn beside_others<'w>(
+    words: &'w Words<'_>,
+) -> impl Iterator<Item = (Subject, &'static str, Span)> + 'w {
+    let cancels = words.g.iter().any(|g| matches!(g.row.number, 40 | 80));
+    let of_g = words.g.iter().filter_map(move |g| {
+        let number = g.row.number;
+        let text = match number {
+            22 if cancels => "G22 mirrors about X in this dialect (Y changes sign), it does not switch stored limits on",
+            23 if cancels => "G23 mirrors about X and Y in this dialect, it does not switch stored limits off",
+            98 | 99 if words.radius.is_some() => {
+                "G98 and G99 set software limits in this dialect; they do not belong to a drilling cycle"
+            }
+            _ => return None,
+        };
+        Some((Subject::G(number), text, g.span))
+    });
+    let tapping = words.m.iter().filter(|m| m.number == 29 && !words.speeds.is_empty());
+    let text = "M29 ends a program in this dialect; G63 and G331 tap";
+    of_g.chain(tapping.map(move |m| (Subject::M(29), text, m.span)))
 }
 
 /// Whether a block sets a temperature of a 3D printer: `M104 S200`, `M109`, `M140`, `M190`. Such a block is also valid in this

@@ -65,6 +65,10 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
         }
     } else if let Some(word) = call.rest.first() {
         return Err(call.unexpected(word));
+    } else if call.command.groups.iter().all(|g| g.items.is_empty()) {
+        let text = "#PUT AX releases nothing: no axis is named";
+        let note = Fault::new(Condition::Odd, text, call.span());
+        decoder.report.note(note.hint("#PUT AX [Z], or #PUT AX ALL"));
     }
     for item in call.command.groups.iter().flat_map(|g| &g.items) {
         let ItemKind::Flag(name) = &item.kind else {

@@ -29,6 +29,11 @@ pub(super) fn rotation(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     let keys = RotationArguments::read(decoder, &call.title(), call.command.groups.first())?;
     match call.command.on {
         Some(true) => {
+            if keys.angle.is_none() {
+                let text = "#ROTATION ON without ANGLE rotates by 0 deg";
+                let note = Fault::new(Condition::Odd, text, call.span());
+                decoder.report.note(note.hint("#ROTATION ON [ANGLE=30]"));
+            }
             let unit = decoder.modal.unit_mm();
             let value = |key: Option<(f64, Span)>| key.map_or(0.0, |(x, _)| x);
             let centres = [keys.centre_1, keys.centre_2].into_iter().flatten();

@@ -26,6 +26,11 @@ impl Scale {
         self.factors[axis] = factor;
     }
 
+    /// Whether every axis has the factor 1.
+    pub(in crate::exec) fn is_one(&self) -> bool {
+        self.factors.iter().all(|factor| factor.to_bits() == 1.0_f64.to_bits())
+    }
+
     /// Active factor.
     pub(in crate::exec) fn factor(&self, axis: usize) -> f64 {
         if self.on { self.factors[axis] } else { 1.0 }

@@ -38,6 +38,10 @@ impl Geometry {
         let Some((switch, at)) = found else { return false };
         let outcome = self.switch_scaling(switch, words, machine, names, at);
         report.keep(outcome);
+        if switch == Some(true) && words.axes.is_empty() && self.scale.is_one() {
+            let text = "#SCALE ON has no effect: no factors have been given";
+            report.note(Fault::new(Condition::Odd, text, at).hint("#SCALE ON X2 Y2"));
+        }
         true
     }
 

@@ -68,7 +68,7 @@ macro_rules! commands {
     AxisFunctionMissing = Vendor 21301: Error ProgramAbort 3 1, "axis bracket does not begin with its function", cause "X[POS=10 INDP_SYN ..]", hint "write the function first: INDP_SYN, INDP_ASYN, OSC, OVERRIDE, SET_POSITION, M or H functions";
     MainSpindleUnknown = Vendor 21306: Error ProgramAbort 3 1, "#MAIN SPINDLE names a spindle that does not exist in the channel", hint "spindles are named in the channel list", parameter "P-CHAN-00007";
     CoupledAxisSorted = Vendor 21312: Error ProgramAbort 3 1, "axis exchange of a coupled axis", cause "#SET AX after #ENABLE AX LINK [1]", hint "write #DISABLE AX LINK before it";
-    PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "write remarks with ; or (; blocks are not allowed before %NAME";
+    PercentInSubroutine = Vendor 21313: Error ProgramAbort 3 1, "% inside a global subroutine", hint "write remarks with ; or (; blocks are not allowed before %NAME", note "kontur reads the block as a remark, with a warning";
     TangentialInsideCorner = Vendor 21316: Warning None 1 1, "G05 with the inside corner selection G238, ignored", hint "remove G05";
     InsideCornerActive = Vendor 21317: Error ProgramAbort 3 1, "G238 while tool radius compensation is active", hint "write G238 before G41 or G42";
     SelectionActive = Vendor 21318: Error ProgramAbort 3 1, "selection mode changed while G238 is in effect", cause "G139 between G41 and G40", hint "write G40 first";

@@ -71,7 +71,7 @@ macro_rules! words {
     RadiusIndex = Vendor 20188: Error ProgramAbort 3 1, "radius index is not 1", cause "R2=10", hint "write R=.. or R1=..";
     OFormat = Vendor 20191: Error ProgramAbort 3 1, "number of an O word outside the data format", cause "O9999999999", hint "O words are not used: begin a program with %NAME, call a subroutine with L or LL";
     ONotImplemented = Vendor 20192: Error ProgramAbort 3 1, "unknown O word", cause "O1000", hint "begin a program with %NAME, call a subroutine with L or LL";
-    PercentInProgram = Vendor 20193: Error ProgramAbort 3 1, "% inside a main program", cause "% text as a remark, %L after the main program", hint "write remarks with ; or (, local subroutines before the main program";
+    PercentInProgram = Vendor 20193: Error ProgramAbort 3 1, "% inside a main program", cause "% text as a remark, %L after the main program", hint "write remarks with ; or (, local subroutines before the main program", note "kontur reads the block as a remark, with a warning";
     AssignmentExpected = Vendor 20194: Error ProgramAbort 3 1, "assignment operator missing or unknown", cause "V.G.X without =", hint "write = between the parameter and its value";
     ToolIndex = Vendor 20197: Error ProgramAbort 3 1, "index of a variable outside the data format", cause "V.G.WZ[-1].L", hint "write an index from 0";
     AxisOrCommandExpected = Vendor 20200: Error ProgramAbort 3 1, "axis name or command expected", cause "axis not in the channel, or letter other than X Y Z A B C U V W Q", hint "see the channel list for the axes of the channel";
