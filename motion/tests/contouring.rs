@@ -6,27 +6,15 @@ mod optimum;
 mod runs;
 mod tolerance;
 
-use crate::common::{Job, axis, channel};
+use crate::common::{Job, apart, arc, at, axis, channel, curvature, line, norm, tangent};
 use kontur_filters::time::CycleTime;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::Trapez;
 use kontur_motion::block::{Block, ContourMode, ContourSettings, CurveJerk, Feed, Tolerance};
 use kontur_motion::contouring::{Contouring, NoContour, Notice};
 use kontur_motion::limits::{PathExtremes, PathSpeeds};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::Path;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
-
-fn line(from: &[f64], to: &[f64]) -> Path {
-    let (from, to) = (AxisVec::from_slice(from), AxisVec::from_slice(to));
-    Path::Line(LinePath::new(from, to, &[]).unwrap())
-}
-
-fn arc(from: &[f64], to: &[f64], centre_mm: [f64; 2], sweep_rad: f64) -> Path {
-    let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad };
-    let (from, to) = (AxisVec::from_slice(from), AxisVec::from_slice(to));
-    Path::Arc(ArcPath::new(from, to, shape, &[]).unwrap())
-}
 
 fn dev(path_dev_mm: f64) -> ContourSettings {
     ContourSettings { mode: ContourMode::Dev { path_dev_mm }, ..ContourSettings::default() }
@@ -53,16 +41,12 @@ fn contoured_at(
     settings: ContourSettings,
     paths: impl IntoIterator<Item = Path>,
 ) -> (Vec<Block>, Vec<Notice>) {
-    let mut stage = Contouring::new(CycleTime::DEFAULT);
+    let mut stage = Contouring::new(CycleTime::from_us(job.cycle_us).unwrap());
+    let kernels = job.kernels(job.dynamics.axes.len());
     let mut out = Vec::new();
-    for (i, path) in paths.into_iter().enumerate() {
-        let contour = Some(settings);
-        out.extend(
-            stage.push(
-                Block { contour, ..job.block(i as u64, path, feed_mm_s) },
-                &Kernels::default(),
-            ),
-        );
+    for (path, seq) in paths.into_iter().zip(0..) {
+        let block = Block { contour: Some(settings), ..job.block(seq, path, feed_mm_s) };
+        out.extend(stage.push(block, &kernels));
     }
     out.extend(stage.flush());
     (out, stage.take_notices())
@@ -74,33 +58,6 @@ fn is_curve(block: &Block) -> bool {
 
 fn curves(blocks: &[Block]) -> Vec<&Block> {
     blocks.iter().filter(|b| is_curve(b)).collect()
-}
-
-fn at(path: &Path, s: f64) -> AxisVec {
-    let mut q = path.start().clone();
-    path.position(s, &mut q);
-    q
-}
-
-fn tangent(path: &Path, s: f64) -> AxisVec {
-    let mut q = path.start().clone();
-    path.tangent(s, &mut q);
-    q
-}
-
-fn curvature(path: &Path, s: f64) -> AxisVec {
-    let mut q = path.start().clone();
-    path.curvature(s, &mut q);
-    q
-}
-
-fn norm(v: &[f64]) -> f64 {
-    v.iter().map(|c| c * c).sum::<f64>().sqrt()
-}
-
-fn apart(p: &[f64], q: &[f64]) -> f64 {
-    let d: Vec<f64> = p.iter().zip(q).map(|(a, b)| a - b).collect();
-    norm(&d)
 }
 
 /// Every block starts where the one before ends, with its direction and its curvature.

@@ -2,7 +2,6 @@
 
 #![expect(clippy::float_cmp, reason = "exact values are meant")]
 
-use crate::common::events::line;
 use crate::common::{self, Job};
 use kontur_filters::time::CycleTime;
 use kontur_kit::Random;
@@ -62,7 +61,7 @@ fn cycles(length_mm: f64, v_mm_s: f64, a_mm_s2: f64) -> usize {
 #[test]
 fn place_and_time_of_a_halt_on_a_line() {
     let job = Job::new(1.0, SlopeKind::Step);
-    let blocks = [line(&job, 7, &[0.0, 0.0], &[100.0, 0.0], 50.0)];
+    let blocks = [job.line(7, &[0.0, 0.0], &[100.0, 0.0], 50.0)];
     let driven = drive(&job, &[0.0, 0.0], &blocks, 425, 10.0);
     assert!(driven.taken);
     let (out, halt) = (&driven.out, driven.halt.unwrap());
@@ -90,7 +89,7 @@ fn a_halt_behind_what_was_pushed() {
     let job = Job::new(1.0, SlopeKind::Step);
     let cycle = CycleTime::from_us(1000).unwrap();
     let mut planner = Planner::new(cycle, 10, &[0.0, 0.0]);
-    planner.push(line(&job, 1, &[0.0, 0.0], &[30.0, 0.0], 50.0));
+    planner.push(job.line(1, &[0.0, 0.0], &[30.0, 0.0], 50.0));
     planner.halt_behind();
     while planner.setpoint().k < 225 {
         assert_eq!(planner.advance().unwrap(), Next::Setpoint);
@@ -101,7 +100,7 @@ fn a_halt_behind_what_was_pushed() {
     assert!(planner.halts() && (planner.setpoint().s_mm - here[0] - 5.0).abs() < 1e-9);
     planner.resume();
     assert_eq!(planner.advance().unwrap(), Next::Input);
-    planner.push(line(&job, 2, &[30.0, 0.0], &[60.0, 0.0], 50.0));
+    planner.push(job.line(2, &[30.0, 0.0], &[60.0, 0.0], 50.0));
     planner.finish();
     let mut slowest = f64::INFINITY;
     while planner.advance().unwrap() == Next::Setpoint {
@@ -130,7 +129,7 @@ fn halts_of_random_programs() {
         }
         let feeds: Vec<f64> = (1..points.len()).map(|_| r.between(5.0, 300.0)).collect();
         let blocks: Vec<Block> = (1..points.len())
-            .map(|i| line(&job, i as u64, &points[i - 1], &points[i], feeds[i - 1]))
+            .map(|i| job.line(i as u64, &points[i - 1], &points[i], feeds[i - 1]))
             .collect();
         let plain = drive(&job, &points[0], &blocks, u64::MAX, 0.0).out;
         let k = 1 + (r.between(0.0, 0.98) * (plain.len() - 2) as f64) as usize;

@@ -1,11 +1,11 @@
 //! Properties of every program: random contours, blocks and limits.
 
-use crate::common::{Job, axis, channel};
+use crate::common::{Job, arc, axis, channel, even, line};
 use kontur_kit::{Random, count};
-use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
-use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
+use kontur_motion::axis::AxisDynamics;
+use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::Path;
 use kontur_motion::planner::Setpoint;
 
 fn limits(r: &mut Random) -> AxisDynamics {
@@ -14,7 +14,7 @@ fn limits(r: &mut Random) -> AxisDynamics {
     let ramp = r.log(0.001, 0.1);
     a.v_max_mm_s = r.log(50.0, 2000.0);
     a.tr_geom_s = r.log(0.001, 0.05);
-    a.feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
+    a.feed = even(acc, ramp);
     a.step_feed.acc_mm_s2 = [acc; 2];
     a.step_feed.dec_mm_s2 = [acc; 2];
     a
@@ -30,7 +30,7 @@ fn contour(r: &mut Random, count: usize) -> Vec<Path> {
         .map(|_| {
             heading += if smooth { 0.2 * (r.ratio() - 0.5) } else { 6.0 * (r.ratio() - 0.5) };
             let (sin, cos) = libm::sincos(heading);
-            let from = AxisVec::from_slice(&at);
+            let from = at;
             if r.ratio() < 0.2 {
                 let (radius, sweep) = (r.log(0.05, 50.0), 4.0 * (r.ratio() - 0.5));
                 let side = sweep.signum();
@@ -38,27 +38,19 @@ fn contour(r: &mut Random, count: usize) -> Vec<Path> {
                 heading += sweep;
                 let (sin, cos) = libm::sincos(heading);
                 at = [centre_mm[0] + side * radius * sin, centre_mm[1] - side * radius * cos];
-                let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: sweep };
-                Path::Arc(ArcPath::new(from, AxisVec::from_slice(&at), shape, &[]).unwrap())
+                arc(&from, &at, centre_mm, sweep)
             } else {
                 let l = r.log(1e-4, long);
                 at = [at[0] + l * cos, at[1] + l * sin];
-                Path::Line(LinePath::new(from, AxisVec::from_slice(&at), &[]).unwrap())
+                line(&from, &at)
             }
         })
         .collect()
 }
 
 fn kinds() -> [Slope; 6] {
-    let slope = |kind: SlopeKind, optimised| Slope { kind, optimised, constant_ramp_time: false };
-    [
-        slope(Step, false),
-        slope(Trapez, false),
-        slope(Sin2, false),
-        slope(Hsc, false),
-        slope(Trapez, true),
-        slope(Sin2, true),
-    ]
+    [(Step, false), (Trapez, false), (Sin2, false), (Hsc, false), (Trapez, true), (Sin2, true)]
+        .map(|(kind, optimised)| Slope { kind, optimised, constant_ramp_time: false })
 }
 
 fn job(dynamics: Vec<AxisDynamics>, slope: Slope) -> Job {
@@ -163,8 +155,7 @@ fn acceleration_and_jerk_without_kinks() {
         let a = limits(&mut r);
         for slope in kinds().into_iter().filter(|s| s.kind != Step) {
             let job = job(vec![a; 2], slope);
-            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-            let out = job.drive(&views, &feeds);
+            let out = job.drive(&points, &feeds);
             let acc = a.feed.acc_mm_s2;
             // in the middle of a sine-square ramp it is pi/2 times the mean
             let peak = if slope.kind == Sin2 { std::f64::consts::FRAC_PI_2 } else { 1.0 };
@@ -213,11 +204,10 @@ fn a_reversed_contour_takes_the_same_time() {
         }
         let axes = vec![limits(&mut r), limits(&mut r)];
         let feed = r.log(20.0, 500.0);
-        let forth: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-        let back: Vec<&[f64]> = points.iter().rev().map(|p| &p[..]).collect();
+        let back: Vec<_> = points.iter().rev().copied().collect();
         for slope in kinds() {
             let job = job(axes.clone(), slope);
-            let cycles = [&forth, &back].map(|p| job.drive(p, &[feed]).len());
+            let cycles = [&points, &back].map(|p| job.drive(p, &[feed]).len());
             let apart = cycles[0].abs_diff(cycles[1]);
             // planned in steps along varying limits: the grid of the steps starts at the other end
             let allowed =
@@ -307,15 +297,14 @@ fn limits_hold_at_extreme_ratios() {
     ];
     let mut a = axis(1.0);
     a.a_max_mm_s2 = 10_000.0;
-    a.feed = FeedSlope { acc_mm_s2: 10_000.0, dec_mm_s2: 10_000.0, ramps_s: [0.005; 4] };
+    a.feed = even(10_000.0, 0.005);
     a.step_feed.acc_mm_s2 = [10_000.0; 2];
     a.step_feed.dec_mm_s2 = [10_000.0; 2];
     for (name, points) in shapes {
-        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
         for slope in kinds() {
             for window in [120, 2000] {
                 let job = Job { window, ..job(vec![a; 2], slope) };
-                let out = job.drive(&views, &[1000.0]);
+                let out = job.drive(&points, &[1000.0]);
                 let (v, acc, low) = load(&job, &out);
                 println!("{name} {slope:?} {window}: {} cycles, {acc:.3}", out.len());
                 assert!(v <= 1.0 + 1e-6 && acc <= 2.0 + 1e-6 && low >= 0.0, "{name} {slope:?}");
@@ -336,11 +325,11 @@ fn constant_ramp_times_on_short_blocks() {
         let mut at = [0.0_f64, 0.0];
         let paths: Vec<Path> = (0..150)
             .map(|i| {
-                let from = AxisVec::from_slice(&at);
+                let from = at;
                 let (sin, cos) = libm::sincos(if i % 2 == 0 { turn } else { -turn });
                 let l = length * (0.5 + r.ratio());
                 at = [at[0] + l * cos, at[1] + l * sin];
-                Path::Line(LinePath::new(from, AxisVec::from_slice(&at), &[]).unwrap())
+                line(&from, &at)
             })
             .collect();
         let way_mm: f64 = paths.iter().map(Path::length).sum();

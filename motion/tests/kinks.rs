@@ -1,7 +1,7 @@
 //! Kinks that limit the path speed between two lines, compared with closed forms.
 
-use crate::common::{Job, axis, channel};
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use crate::common::{Job, axis, channel, even};
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::Setpoint;
@@ -15,11 +15,8 @@ const ACC: f64 = 2000.0;
 const QUICK: f64 = ACC / 0.01;
 const SLOW: f64 = ACC / 0.1;
 
-fn drive(kind: SlopeKind, points: &[&[f64]], feeds_mm_s: &[f64]) -> Vec<Setpoint> {
-    let of = |ramp: f64| AxisDynamics {
-        feed: FeedSlope { acc_mm_s2: ACC, dec_mm_s2: ACC, ramps_s: [ramp; 4] },
-        ..axis(KINK_WEIGHT)
-    };
+fn drive(kind: SlopeKind, points: &[[f64; 2]], feeds_mm_s: &[f64]) -> Vec<Setpoint> {
+    let of = |ramp: f64| AxisDynamics { feed: even(ACC, ramp), ..axis(KINK_WEIGHT) };
     let job = Job {
         dynamics: channel(vec![of(ACC / QUICK), of(ACC / SLOW)]),
         cycle_us: CYCLE_US,
@@ -40,7 +37,7 @@ fn at_kink() -> f64 {
 /// `v t - j t^3 / 3` away from it; there `a` is what the path has at the kink.
 #[test]
 fn the_lowest_speed_lies_on_the_quicker_side() {
-    let out = drive(Hsc, &POINTS.each_ref().map(|p| &p[..]), &[200.0]);
+    let out = drive(Hsc, &POINTS, &[200.0]);
     let kink = out.iter().position(|p| p.seq == 1).unwrap();
     let Setpoint { v_mm_s: v, a_mm_s2: a, s_mm: s, .. } = out[kink];
     // the setpoint lies up to a cycle after the kink
@@ -62,8 +59,7 @@ fn the_lowest_speed_lies_on_the_quicker_side() {
 /// more than its jerk and the velocity jump require.
 #[test]
 fn trapez_passes_a_kink_without_acceleration() {
-    let points = POINTS.each_ref().map(|p| &p[..]);
-    for points in [points.to_vec(), points.iter().rev().copied().collect()] {
+    for points in [POINTS.to_vec(), POINTS.iter().rev().copied().collect()] {
         let out = drive(Trapez, &points, &[200.0]);
         let kink = out.iter().position(|p| p.seq == 1).unwrap();
         let near = &out[kink - 400..kink + 400];
@@ -81,7 +77,7 @@ fn between_equal_lines_the_lowest_speed_is_at_the_kink() {
     // bends that affect both axes alike
     let points = [[0.0, 0.0], [6.0, 2.0], [12.0, 0.0]];
     for kind in [Hsc, Trapez] {
-        let out = drive(kind, &points.each_ref().map(|p| &p[..]), &[200.0]);
+        let out = drive(kind, &points, &[200.0]);
         let kink = out.iter().position(|p| p.seq == 1).unwrap();
         let near = &out[kink - 400..kink + 400];
         let lowest = near.iter().map(|p| p.v_mm_s).fold(f64::INFINITY, f64::min);
@@ -96,7 +92,7 @@ fn behind_a_kink_the_feed_is_the_reason_for_the_feed() {
     for kind in [Hsc, Trapez] {
         for feed in (5..60).map(f64::from) {
             let way = [[0.0, 0.0], [20.0, 0.0], [20.0, feed]];
-            let out = drive(kind, &way.each_ref().map(|p| &p[..]), &[200.0, feed]);
+            let out = drive(kind, &way, &[200.0, feed]);
             let even = |p: &&Setpoint| {
                 p.seq == 1 && (p.v_mm_s - feed).abs() < 1e-5 && p.a_mm_s2.abs() < 1e-3
             };

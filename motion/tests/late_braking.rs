@@ -1,11 +1,10 @@
 //! G901: braking to a lower feed after the end of the faster block, against closed forms and over random programs.
 
-use crate::common::{Job, axis, channel};
+use crate::common::{Job, arc, axis, channel};
 use kontur_kit::{Random, count, seed};
-use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
+use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope, VectorLimits};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::planner::Setpoint;
 use std::sync::Arc;
 
@@ -51,10 +50,9 @@ fn straight(job: &Job, pieces: &[Piece]) -> Vec<Block> {
         .iter()
         .enumerate()
         .map(|(i, (length, feed, late))| {
-            let from = AxisVec::from_slice(&[x, 0.0]);
+            let from = x;
             x += length;
-            let line = LinePath::new(from, AxisVec::from_slice(&[x, 0.0]), &[]).unwrap();
-            Block { late_braking: *late, ..job.block(i as u64, Path::Line(line), *feed) }
+            Block { late_braking: *late, ..job.line(i as u64, &[from, 0.0], &[x, 0.0], *feed) }
         })
         .collect()
 }
@@ -162,11 +160,7 @@ fn the_curvature_of_the_slower_block_is_kept() {
     for kind in KINDS {
         let job = Job::new(1.0, kind);
         let mut blocks = straight(&job, &[(100.0, 100.0, true)]);
-        let (start, end) = ([100.0, 0.0], [100.0, 5.0]);
-        let shape =
-            ArcShape { plane: [0, 1], centre_mm: [100.0, 2.5], sweep_rad: std::f64::consts::PI };
-        let [start, end] = [start, end].map(|p| AxisVec::from_slice(&p));
-        let arc = Path::Arc(ArcPath::new(start, end, shape, &[]).unwrap());
+        let arc = arc(&[100.0, 0.0], &[100.0, 5.0], [100.0, 2.5], std::f64::consts::PI);
         blocks.push(job.block(1, arc, 20.0));
         let out = job.run(&[0.0, 0.0], blocks.into_iter());
         let most = out.iter().filter(|p| p.seq == 1).map(|p| p.v_mm_s).fold(0.0, f64::max);

@@ -2,23 +2,18 @@
 
 #![expect(clippy::float_cmp, reason = "exact values are meant")]
 
-use crate::common::{Job, axis, channel};
+use crate::common::{self, Job, axis, channel, even, line};
 use kontur_filters::time::CycleTime;
-use kontur_motion::axis::AxisVec;
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, SlopeKind, TransitionJerkMode};
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::junction::{Ends, transition};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use kontur_motion::queue::Queued;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 const CYCLE: CycleTime = CycleTime::DEFAULT;
-
-fn line(from: &[f64], to: &[f64]) -> Path {
-    Path::Line(LinePath::new(AxisVec::from_slice(from), AxisVec::from_slice(to), &[]).unwrap())
-}
 
 /// Velocity in mm/min at the kink between a leg along X and one turned by `degrees`.
 fn kink(weight: f64, cycle_us: u32, degrees: f64, kind: SlopeKind) -> f64 {
@@ -72,9 +67,7 @@ fn direct_jerk_at_kinks() {
 
 fn arc(job: &Job, radius: f64, sweep_rad: f64) -> Block {
     let end = [radius * (libm::cos(sweep_rad) - 1.0), radius * libm::sin(sweep_rad)];
-    let shape = ArcShape { plane: [0, 1], centre_mm: [-radius, 0.0], sweep_rad };
-    let path = ArcPath::new(AxisVec::zeros(2), AxisVec::from_slice(&end), shape, &[]).unwrap();
-    job.block(0, Path::Arc(path), 1e6)
+    job.block(0, common::arc(&[0.0; 2], &end, [-radius, 0.0], sweep_rad), 1e6)
 }
 
 /// Full circles at a = 1000 mm/s2, tr_geom = 10 ms.
@@ -120,12 +113,7 @@ fn tangential_transition_table() {
 /// Oblique lines: X 500 mm/s, 2000 mm/s2, 40 ms; Y 300 mm/s, 800 mm/s2, 100 ms.
 #[test]
 fn oblique_lines() {
-    let with = |v, a, t| {
-        let mut x = axis(1.0);
-        x.v_max_mm_s = v;
-        (x.feed.acc_mm_s2, x.feed.dec_mm_s2, x.feed.ramps_s) = (a, a, [t; 4]);
-        x
-    };
+    let with = |v, a, t| AxisDynamics { v_max_mm_s: v, feed: even(a, t), ..axis(1.0) };
     let dynamics = channel(vec![with(500.0, 2000.0, 0.04), with(300.0, 800.0, 0.1)]);
     let job = Job { dynamics, ..Job::new(1.0, Trapez) };
     for (end, velocity, duration) in

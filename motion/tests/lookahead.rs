@@ -1,8 +1,8 @@
 //! Look-ahead against worked numbers (TF5200 limits, closed forms of the slopes; computed independently).
 
-use crate::common::{Job, axis, channel};
+use crate::common::{Job, axis, channel, even, machine};
 use kontur_kit::{Random, count};
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::cap::SpeedLimit;
 use kontur_motion::planner::Setpoint;
@@ -42,7 +42,6 @@ fn collinear(lengths: &[f64]) -> Vec<[f64; 2]> {
 
 fn cycles(job: &Job, lengths: &[f64], feeds: &[f64]) -> usize {
     let points = collinear(lengths);
-    let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
     job.drive(&points, feeds).len() - 1
 }
 
@@ -78,8 +77,6 @@ fn samples_of_a_short_block() {
 /// Polygons of a circle: whatever the window ends with, the path continues after it without a rest.
 #[test]
 fn a_smooth_contour_never_rests() {
-    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
-    let limits = AxisDynamics { feed, ..axis(1.0) };
     for (radius, chord) in [(1.0, 0.02), (5.0, 0.1 / 3.0), (5.0, 0.1), (20.0, 0.05)] {
         let points: Vec<[f64; 2]> = (0..700)
             .map(|i| {
@@ -87,7 +84,6 @@ fn a_smooth_contour_never_rests() {
                 [radius * cos, radius * sin]
             })
             .collect();
-        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
         for (kind, window, feed) in [
             (Hsc, 120, 200.0),
             (Hsc, 120, 80.0),
@@ -96,7 +92,7 @@ fn a_smooth_contour_never_rests() {
             (Trapez, 10, 50.0),
             (Sin2, 120, 200.0),
         ] {
-            let dynamics = channel(vec![limits; 2]);
+            let dynamics = machine(2, 1.0, 3500.0, 0.03);
             let out = Job { dynamics, window, ..Job::new(1.0, kind) }.drive(&points, &[feed]);
             let rest = out[1..out.len() - 1].iter().find(|p| p.v_mm_s <= 0.0);
             assert!(rest.is_none(), "r {radius} {chord} {kind:?} {window} F{feed}: {rest:?}");
@@ -111,7 +107,6 @@ fn a_smooth_contour_never_rests() {
 fn a_rise_that_goes_on_in_the_next_window_keeps_its_reason() {
     let mut points: Vec<[f64; 2]> = (0..=60).map(|i| [0.0, 0.2 * f64::from(i)]).collect();
     points.extend((1..=120).map(|i| [0.2 * f64::from(i), 12.0]));
-    let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
     for kind in [Trapez, Hsc] {
         for window in 10..40 {
             let [short, long] = [window, 100 * window].map(|window| {
@@ -145,10 +140,7 @@ fn constant_ramp_times_belong_to_trapez_and_sin2() {
 fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
     for seed in 0..count(40) {
         let mut r = Random::from_state(seed as u64);
-        let limits = |acc: f64, ramp: f64| {
-            let feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
-            AxisDynamics { feed, ..axis(1.0) }
-        };
+        let limits = |acc, ramp| AxisDynamics { feed: even(acc, ramp), ..axis(1.0) };
         let axes = vec![limits(3500.0, 0.03), limits(2000.0, 0.05), limits(800.0, 0.08)];
         let dynamics = channel(axes);
         let mut heading = [r.between(-1.0, 1.0), r.between(-1.0, 1.0), r.between(-1.0, 1.0)];
@@ -164,11 +156,10 @@ fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
             // the slow axis moves only in the tiny blocks
             points = vec![[0.0; 3], [0.02, 0.0, 0.005], [9.0, 0.0, 0.005], [9.02, 0.0, 0.0]];
         }
-        let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
         for kind in [Trapez, Sin2, Hsc] {
             let dynamics = dynamics.clone();
             let job = Job { dynamics, cycle_us: 100, ..Job::new(1.0, kind) };
-            let cycles = |points: &[&[f64]]| job.drive(points, &[150.0]).len() - 1;
+            let cycles = |points: &[[f64; 3]]| job.drive(points, &[150.0]).len() - 1;
             let alone: usize = points.windows(2).map(cycles).sum();
             assert!(cycles(&points) <= alone, "{seed} {kind:?}: {} {alone}", cycles(&points));
         }
@@ -179,17 +170,14 @@ fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
 /// speed is a limit along it, not the stop at an end.
 #[test]
 fn what_holds_the_speed_inside_a_contour_is_named_there() {
-    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
-    let limits = AxisDynamics { feed, ..axis(1.0) };
     let points: Vec<[f64; 2]> = (0..=300)
         .map(|i| {
             let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::TAU / 300.0);
             [10.0 * cos, 10.0 * sin]
         })
         .collect();
-    let points: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
     for kind in [Hsc, Trapez] {
-        let dynamics = channel(vec![limits; 2]);
+        let dynamics = machine(2, 1.0, 3500.0, 0.03);
         let out = Job { dynamics, window: 1000, ..Job::new(1.0, kind) }.drive(&points, &[200.0]);
         let first_fall = out.iter().position(|p| p.a_mm_s2 < -1.0).unwrap();
         let last_rise = out.iter().rposition(|p| p.a_mm_s2 > 1.0).unwrap();

@@ -2,8 +2,8 @@
 //!
 //! `data/optimum.csv` is made by `reference/table.py`, by convex programming; it shares no code with the planner.
 
-use crate::common::{Job, axis, channel};
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use crate::common::{Job, axis, channel, even};
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
 /// Cycle of the table in us: short enough that rounding of the time to cycles, and kinks within one cycle, do not
@@ -24,7 +24,7 @@ struct Row {
 pub(crate) fn machine(name: &str, kink_weight: f64) -> Vec<AxisDynamics> {
     let of = |acc: f64, ramp: f64, v_max_mm_s: f64| AxisDynamics {
         v_max_mm_s,
-        feed: FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] },
+        feed: even(acc, ramp),
         ..axis(kink_weight)
     };
     match name {
@@ -60,8 +60,7 @@ fn ratio(row: &Row, kind: SlopeKind) -> f64 {
         cycle_us: CYCLE_US,
         ..Job::new(KINK_WEIGHT, kind)
     };
-    let points: Vec<&[f64]> = row.points.iter().map(|p| &p[..]).collect();
-    let out = job.drive(&points, &row.feeds);
+    let out = job.drive(&row.points, &row.feeds);
     (out.len() - 1) as f64 * f64::from(CYCLE_US) * 1e-6 / row.least_s
 }
 

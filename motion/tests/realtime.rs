@@ -4,14 +4,12 @@
 
 mod random;
 
-use crate::common::events::{Event, drive, line};
-use crate::common::{Job, axis, channel, deviation};
+use crate::common::events::{Event, drive};
+use crate::common::{Job, arc, axis, channel, deviation};
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Feed, SlopeKind};
-use kontur_motion::path::{ArcPath, ArcShape, Path};
 use kontur_motion::planner::{Planner, Setpoint};
 use kontur_motion::profile::Infeasible;
 use kontur_motion::realtime::FeedholdBraking;
@@ -21,7 +19,7 @@ use random::Case;
 
 /// One straight line of 100 mm at 100 mm/s.
 fn straight(job: &Job, events: &[(u64, Event)]) -> Vec<Setpoint> {
-    drive(job, &[0.0, 0.0], vec![line(job, 0, &[0.0, 0.0], &[100.0, 0.0], 100.0)], events).unwrap()
+    drive(job, &[0.0, 0.0], vec![job.line(0, &[0.0, 0.0], &[100.0, 0.0], 100.0)], events).unwrap()
 }
 
 /// Way in mm from `v` and the deceleration `d` to `target` with zero acceleration, at 1000 mm/s2 with ramps of 50 ms;
@@ -57,7 +55,7 @@ fn an_override_while_the_path_brakes_to_an_end_velocity() {
             let points = [[0.0, 0.0], [30.0, 0.0], [60.0, 0.0]];
             let lines = points.windows(2).zip(0..);
             let mut blocks: Vec<_> =
-                lines.map(|(ends, i)| line(&job, i, &ends[0], &ends[1], 100.0)).collect();
+                lines.map(|(ends, i)| job.line(i, &ends[0], &ends[1], 100.0)).collect();
             blocks[0].end_velocity_mm_s = Some(E);
             drive(&job, &[0.0, 0.0], blocks, events).unwrap()
         };
@@ -146,8 +144,8 @@ fn turning_the_knob_while_accelerating() {
 fn rapid_override_zero_waits_in_front_of_the_rapid_block() {
     let job = Job::new(0.0, Trapez);
     let mut blocks = vec![
-        line(&job, 0, &[0.0, 0.0], &[20.0, 0.0], 50.0),
-        line(&job, 1, &[20.0, 0.0], &[60.0, 0.0], 50.0),
+        job.line(0, &[0.0, 0.0], &[20.0, 0.0], 50.0),
+        job.line(1, &[20.0, 0.0], &[60.0, 0.0], 50.0),
     ];
     blocks[1].feed = Feed::Rapid;
     let events = [(5, Event::Rapid(1.0, 0.0)), (2000, Event::Rapid(1.0, 1.0))];
@@ -166,8 +164,7 @@ fn fast_override_over_short_blocks_that_were_read_at_a_slow_one() {
             let (sin, cos) = libm::sincos(0.005 * f64::from(k));
             [10.0 * cos, 10.0 * sin]
         };
-        let blocks =
-            (0..1200).map(|k| line(&job, u64::from(k), &at(k), &at(k + 1), 80.0)).collect();
+        let blocks = (0..1200).map(|k| job.line(u64::from(k), &at(k), &at(k + 1), 80.0)).collect();
         let events = [(0, Event::Override(0.05)), (200, Event::Override(2.0))];
         let out = drive(&job, &at(0), blocks, &events).unwrap();
         let fastest = out.iter().map(|p| p.v_mm_s).fold(0.0, f64::max);
@@ -241,7 +238,7 @@ fn an_override_that_does_not_bind_changes_nothing() {
     for kind in [Trapez, Hsc] {
         let job = Job::new(0.0, kind);
         let drive = |events: &[(u64, Event)]| {
-            let block = line(&job, 0, &[0.0, 0.0], &[2.0, 0.0], 100.0);
+            let block = job.line(0, &[0.0, 0.0], &[2.0, 0.0], 100.0);
             drive(&job, &[0.0, 0.0], vec![block], events).unwrap()
         };
         let plain = drive(&[]);
@@ -265,12 +262,9 @@ fn an_override_that_does_not_bind_changes_nothing() {
 #[test]
 fn events_on_a_circle() {
     let job = Job::new(0.0, Trapez);
-    let shape = ArcShape { plane: [0, 1], centre_mm: [0.0, 0.0], sweep_rad: 12.0 };
     let (start, end) = ([10.0, 0.0], [10.0 * libm::cos(12.0), 10.0 * libm::sin(12.0)]);
-    let at = |p: &[f64]| AxisVec::from_slice(p);
     for k in (10..1300_u64).step_by(37) {
-        let arc = ArcPath::new(at(&start), at(&end), shape, &[]).unwrap();
-        let blocks = vec![job.block(0, Path::Arc(arc), 80.0)];
+        let blocks = vec![job.block(0, arc(&start, &end, [0.0, 0.0], 12.0), 80.0)];
         let events = [
             (k, Event::Override(0.4)),
             (k + 60, Event::Hold(Own)),
@@ -303,7 +297,7 @@ fn emergency_stop_during_a_feedhold() {
     let mut planner = Planner::new(cycle, 10, &[0.0, 0.0]);
     for i in 0..10_u32 {
         let x = f64::from(i);
-        planner.push(line(&job, u64::from(i), &[x, 0.0], &[x + 1.0, 0.0], 50.0));
+        planner.push(job.line(u64::from(i), &[x, 0.0], &[x + 1.0, 0.0], 50.0));
     }
     planner.finish();
     let mut last = 0.0;

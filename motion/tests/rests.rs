@@ -1,20 +1,12 @@
 //! Compares plans with `AX_DEV` with plans that always keep it: one that dwells at every corner until the filters have
 //! settled, and that of a lower feed rate.
 
-mod doc {
-    #![allow(unused_imports, unreachable_pub, dead_code, reason = "written for examples")]
-    include!("doc/axis.rs");
-}
-
-use doc::{Arc, AxisVec, Block, ChannelDynamics, Feed, LinePath, Path, axis};
+use crate::common::{Job, arc, line};
+use crate::spline::fast;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::Random;
-use kontur_motion::block::{Slope, SlopeKind, Tolerance};
-use kontur_motion::cap::SpeedLimit;
-use kontur_motion::path::{ArcPath, ArcShape};
-use kontur_motion::planner::{Next, Planner};
-use kontur_motion::tolerance::Kernels;
+use kontur_motion::block::{Block, Slope, SlopeKind, Tolerance};
 
 /// A line to a point, or an arc with its centre and swept angle in rad.
 #[derive(Clone, Copy)]
@@ -33,56 +25,36 @@ struct Case {
 }
 
 impl Case {
-    fn kernels(&self) -> Kernels {
-        let guard = |(mode, freq_hz): (u8, f64)| {
-            let settings = VibGuardSettings { mode, freq_hz, damping: 0.1 };
-            Some(Arc::new(settings.kernel(CycleTime::DEFAULT).unwrap()))
+    /// Cycles of the contour; with rests, every block is planned alone and followed by a dwell as long as the filters.
+    fn cycles(&self, rests: bool) -> usize {
+        let guard = |(mode, freq_hz)| VibGuardSettings { mode, freq_hz, damping: 0.1 };
+        let kernel = |guard: VibGuardSettings| guard.kernel(CycleTime::DEFAULT).unwrap();
+        let kernels = self.guards.map(|settings| kernel(guard(settings))).to_vec();
+        let length = kernels.iter().map(|k| k.length() as usize).max().unwrap();
+        let job = Job {
+            slope: Slope { kind: self.kind, ..Slope::default() },
+            tolerance: Tolerance { ax_dev_mm: Some(self.ax_dev_mm), acc_fact: 1.0 },
+            kernels,
+            ..fast(2)
         };
-        Kernels::new(self.guards.map(guard).to_vec())
-    }
-
-    fn blocks(&self) -> Vec<Block> {
-        let dynamics = Arc::new(ChannelDynamics::new(vec![axis(); 2]));
-        let slope = Slope { kind: self.kind, ..Slope::default() };
-        let tolerance = Tolerance { ax_dev_mm: Some(self.ax_dev_mm), acc_fact: 1.0 };
-        let mut at = AxisVec::zeros(2);
+        let mut at = [0.0; 2];
         let block = |(motion, seq): (&Motion, u64)| {
             let (Motion::Line(end) | Motion::Arc(end, ..)) = motion;
-            let from = std::mem::replace(&mut at, AxisVec::from_slice(end));
+            let from = std::mem::replace(&mut at, *end);
             let path = match *motion {
-                Motion::Line(_) => Path::Line(LinePath::new(from, at.clone(), &[true; 2]).unwrap()),
-                Motion::Arc(_, centre_mm, sweep_rad) => {
-                    let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad };
-                    Path::Arc(ArcPath::new(from, at.clone(), shape, &[true; 2]).unwrap())
-                }
+                Motion::Line(_) => line(&from, end),
+                Motion::Arc(_, centre_mm, sweep_rad) => arc(&from, end, centre_mm, sweep_rad),
             };
-            let feed = Feed::PathVelocity(self.feed_mm_s);
-            Block { slope, tolerance, ..Block::new(seq, path, feed, Arc::clone(&dynamics)) }
+            job.block(seq, path, self.feed_mm_s)
         };
-        self.motions.iter().zip(1..).map(block).collect()
-    }
-
-    /// Cycles of the contour; with rests, every block is planned alone and followed by a dwell as long as the filters.
-    fn cycles(&self, rests: bool) -> u64 {
-        let mut planner = Planner::new(CycleTime::DEFAULT, 120, &[0.0; 2]);
-        let kernels = self.kernels();
-        let length = kernels.length();
-        planner.set_kernels(kernels, 0);
-        let mut blocks = self.blocks().into_iter();
-        if !rests {
-            blocks.by_ref().for_each(|block| planner.push(block));
+        let blocks: Vec<Block> = self.motions.iter().zip(1..).map(block).collect();
+        let cycles =
+            |blocks: &[Block]| job.run(blocks[0].path.start(), blocks.iter().cloned()).len() - 1;
+        if rests {
+            blocks.chunks(1).map(cycles).sum::<usize>() + (blocks.len() - 1) * length
+        } else {
+            cycles(&blocks)
         }
-        loop {
-            planner.finish();
-            while planner.advance().unwrap() != Next::Rest {}
-            let Some(block) = blocks.next() else { break };
-            if planner.setpoint().k > 0 {
-                (0..length).for_each(|_| planner.hold(SpeedLimit::Stop));
-            }
-            planner.push(block);
-        }
-        assert!(planner.take_unkept().is_empty());
-        planner.setpoint().k
     }
 }
 
@@ -170,7 +142,7 @@ fn a_higher_feed_is_not_slower() {
             guards: std::array::from_fn(|_| (r.pick(&[1, 2, 3, 4]), r.log(20.0, 60.0))),
             motions: motions(&mut r),
         };
-        let mut least = u64::MAX;
+        let mut least = usize::MAX;
         for feed_mm_s in [20.0, 40.0, 60.0, 80.0, 120.0, 200.0] {
             case.feed_mm_s = feed_mm_s;
             let cycles = case.cycles(false);

@@ -4,11 +4,11 @@
 //! `COUNT=200 SEED=7 cargo test --release -p kontur-motion --test all same_time -- --nocapture` tests more contours and
 //! prints the largest differences between their forms.
 
-use crate::common::{Job, axis, channel, contour};
+use crate::common::{Job, axis, channel, contour, even};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::{Random, count, environment, seed};
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{self, Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
 
@@ -17,26 +17,25 @@ use kontur_motion::block::Tolerance;
 const SAME: f64 = 1e-3;
 const ROUNDED_CYCLES: f64 = 2.0;
 
-type Points = Vec<[f64; 3]>;
+pub(crate) type Points = Vec<[f64; 3]>;
 
 #[derive(Clone, Debug)]
-struct Case {
-    points: Points,
-    axes: Vec<AxisDynamics>,
-    kind: SlopeKind,
-    feed_mm_s: f64,
-    window: usize,
-    cycle_us: u32,
+pub(crate) struct Case {
+    pub(crate) points: Points,
+    pub(crate) axes: Vec<AxisDynamics>,
+    pub(crate) kind: SlopeKind,
+    pub(crate) feed_mm_s: f64,
+    pub(crate) window: usize,
+    pub(crate) cycle_us: u32,
     /// Vibration Guard and `AX_DEV` in mm.
-    guard: Option<(VibGuardSettings, f64)>,
+    pub(crate) guard: Option<(VibGuardSettings, f64)>,
     /// Backwards in time, the contour passes a filter whose response is reversed.
-    backwards: bool,
-    rest_cycles: usize,
+    pub(crate) backwards: bool,
+    pub(crate) rest_cycles: usize,
 }
 
-fn dynamics(weight: f64, acc: f64, ramp: f64) -> AxisDynamics {
-    let feed = FeedSlope { acc_mm_s2: acc, dec_mm_s2: acc, ramps_s: [ramp; 4] };
-    AxisDynamics { feed, ..axis(weight) }
+pub(crate) fn dynamics(weight: f64, acc: f64, ramp: f64) -> AxisDynamics {
+    AxisDynamics { feed: even(acc, ramp), ..axis(weight) }
 }
 
 impl Case {
@@ -71,27 +70,26 @@ impl Case {
     }
 
     /// With FREQ and `AX_DEV` in shares of those of the case.
-    fn with(&self, freq: f64, ax_dev: f64) -> Self {
+    pub(crate) fn with(&self, freq: f64, ax_dev: f64) -> Self {
         let scaled = |(guard, mm): (VibGuardSettings, f64)| {
             (VibGuardSettings { freq_hz: freq * guard.freq_hz, ..guard }, ax_dev * mm)
         };
         Self { guard: self.guard.map(scaled), ..self.clone() }
     }
 
-    fn cycles(&self) -> f64 {
+    pub(crate) fn cycles(&self) -> f64 {
         let cycle = CycleTime::from_us(self.cycle_us).unwrap();
-        let kernel = self.guard.map(|(guard, _)| guard.kernel(cycle).unwrap());
+        let kernels = self.guard.map(|(guard, _)| guard.kernel(cycle).unwrap()).into_iter();
         let job = Job {
             dynamics: channel(self.axes.clone()),
             cycle_us: self.cycle_us,
             window: self.window,
-            kernel: kernel.map(|k| if self.backwards { k.reversed() } else { k }),
+            kernels: kernels.map(|k| if self.backwards { k.reversed() } else { k }).collect(),
             tolerance: Tolerance { ax_dev_mm: self.guard.map(|(_, mm)| mm), acc_fact: 1.0 },
             rest_cycles: self.rest_cycles,
             ..Job::new(1.0, self.kind)
         };
-        let points: Vec<&[f64]> = self.points.iter().map(|p| &p[..]).collect();
-        (job.drive(&points, &[self.feed_mm_s]).len() - 1) as f64
+        (job.drive(&self.points, &[self.feed_mm_s]).len() - 1) as f64
     }
 
     /// The same contour in other forms: reversed, mirrored, every line split in two, every point moved by up to 1e-9 mm.

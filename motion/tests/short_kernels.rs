@@ -1,11 +1,11 @@
 //! `AX_DEV` with filters of a few cycles: a contour never takes longer than with a rest in every corner.
 
-use crate::common::{Job, axis, channel};
+use crate::common::{Job, axis, channel, even};
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::{Random, environment};
-use kontur_motion::axis::{FeedSlope, StepSlope};
+use kontur_motion::axis::StepSlope;
 use kontur_motion::block::SlopeKind::{self, Step, Trapez};
 use kontur_motion::block::Tolerance;
 
@@ -70,18 +70,17 @@ impl Case {
     fn cycles(&self) -> usize {
         let a = self.acc_mm_s2;
         let mut machine = axis(1.0);
-        machine.feed = FeedSlope { acc_mm_s2: a, dec_mm_s2: a, ramps_s: [self.ramp_s; 4] };
+        machine.feed = even(a, self.ramp_s);
         machine.step_feed = StepSlope { acc_mm_s2: [a; 2], dec_mm_s2: [a; 2], change_mm_s: 100.0 };
         machine.a_max_mm_s2 = 10_000.0;
         let job = Job {
             cycle_us: self.cycle_us,
             dynamics: channel(vec![machine; 2]),
-            kernel: Some(self.kernel.clone()),
+            kernels: vec![self.kernel.clone()],
             tolerance: Tolerance { ax_dev_mm: Some(self.tolerance_mm), acc_fact: 1.0 },
             ..Job::new(1.0, self.kind)
         };
-        let points: Vec<&[f64]> = self.points.iter().map(|p| &p[..]).collect();
-        job.drive(&points, &[self.feed_mm_s]).len() - 1
+        job.drive(&self.points, &[self.feed_mm_s]).len() - 1
     }
 
     /// Cycles with a rest in every corner, one cycle longer than the filter is: `L / v + v / a + tr` for every line, up to

@@ -6,20 +6,31 @@ mod ripple;
 mod slaved;
 mod unequal;
 
-use crate::common::{Job, axis, channel, circle, deviation, peaks};
+use crate::common::{
+    Job, apart, at, axis, channel, circle, curvature, deviation, even, norm, peaks, tangent,
+};
 use kontur_filters::time::CycleTime;
 use kontur_kit::{Random, environment};
-use kontur_motion::axis::AxisVec;
+use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
 use kontur_motion::block::{Block, ChannelDynamics, SlopeKind, SplineSettings};
-use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::Setpoint;
 use kontur_motion::spline::Splining;
-use kontur_motion::tolerance::Kernels;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
+/// A machine with 3500 mm/s2 with ramps of 30 ms, 6 m/s2 at corners.
+pub(crate) fn fast(axes: usize) -> Job {
+    let axis = AxisDynamics { a_max_mm_s2: 6000.0, feed: even(3500.0, 0.03), ..axis(1.0) };
+    Job { dynamics: channel(vec![axis; axes]), window: 400, ..Job::new(1.0, Hsc) }
+}
+
+pub(crate) fn splined(
+    job: &Job,
+    settings: SplineSettings,
+    points: &[Vec<f64>],
+    feed: f64,
+) -> Vec<Block> {
     splined_and_sharp(job, settings, points, feed).0
 }
 
@@ -31,14 +42,12 @@ fn splined_and_sharp(
     feed: f64,
 ) -> (Vec<Block>, Vec<u64>) {
     let mut stage = Splining::new(CycleTime::DEFAULT);
-    let kernels = Kernels::new(vec![job.kernel.clone().map(Arc::new); points[0].len()]);
+    let kernels = job.kernels(points[0].len());
     let mut out = Vec::new();
-    for (i, w) in points.windows(2).enumerate() {
-        let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
-        let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
-        let block = Block { spline: Some(settings), ..job.block(i as u64, path, feed) };
+    for (ends, seq) in points.windows(2).zip(0..) {
+        let block = Block { spline: Some(settings), ..job.line(seq, &ends[0], &ends[1], feed) };
         out.extend(stage.push(block, &kernels));
-        assert!(out.last().map_or(0, |b| b.seq) as usize + 791 > i, "the buffer is bounded");
+        assert!(out.last().map_or(0, |b| b.seq) + 791 > seq, "the buffer is bounded");
     }
     out.extend(stage.flush(&kernels));
     let mut numbers: Vec<u64> = out.iter().map(|b| b.seq).collect();
@@ -46,16 +55,6 @@ fn splined_and_sharp(
     numbers.dedup();
     assert_eq!(numbers, (0..points.len() as u64 - 1).collect::<Vec<_>>(), "every block survives");
     (out, stage.take_notices().iter().map(|n| n.seq).collect())
-}
-
-fn vector(path: &Path, f: impl Fn(&Path, &mut [f64])) -> Vec<f64> {
-    let mut v = path.start().to_vec();
-    f(path, &mut v);
-    v
-}
-
-fn apart(p: &[f64], q: &[f64]) -> f64 {
-    p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 /// Largest gaps in position, tangent and curvature between neighbours; the latter two not at sharp corners, where the spline
@@ -69,12 +68,12 @@ fn gaps(blocks: &[Block], sharp: &[u64]) -> [f64; 3] {
         if w[0].seq != w[1].seq && sharp.contains(&w[0].seq) {
             continue;
         }
-        let (t, u) = (vector(a, |p, v| p.tangent(l, v)), vector(b, |p, v| p.tangent(0.0, v)));
+        let (t, u) = (tangent(a, l), tangent(b, 0.0));
         worst[1] = worst[1].max(apart(&t, &u));
-        let (t, u) = (vector(a, |p, v| p.curvature(l, v)), vector(b, |p, v| p.curvature(0.0, v)));
+        let (t, u) = (curvature(a, l), curvature(b, 0.0));
         // parts of one edge lie on the same polynomials
         if w[0].seq != w[1].seq {
-            worst[2] = worst[2].max(apart(&t, &u) / (1.0 + apart(&t, &[0.0; 8][..t.len()])));
+            worst[2] = worst[2].max(apart(&t, &u) / (1.0 + norm(&t)));
         }
     }
     worst
@@ -82,18 +81,16 @@ fn gaps(blocks: &[Block], sharp: &[u64]) -> [f64; 3] {
 
 /// Largest component of the deviation of the spline from the polygon, and of a corner from the spline.
 fn strays(blocks: &[Block], points: &[Vec<f64>]) -> (f64, f64) {
-    let polygon: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
     let mut out = 0.0_f64;
     let mut samples = Vec::new();
     for b in blocks {
         for k in 0..=8 {
-            let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 8.0, v));
-            out = out.max(deviation(&q, &polygon));
+            let q = at(&b.path, b.path.length() * f64::from(k) / 8.0);
+            out = out.max(deviation(&q, points));
             samples.push(q);
         }
     }
-    let views: Vec<&[f64]> = samples.iter().map(|p| &p[..]).collect();
-    (out, points.iter().map(|p| deviation(p, &views)).fold(0.0, f64::max))
+    (out, points.iter().map(|p| deviation(p, &samples)).fold(0.0, f64::max))
 }
 
 /// Lengths of edges in mm and the turns between them, both from a number of 0 to 1.
@@ -159,9 +156,9 @@ fn a_coarse_corner_uses_the_tolerance() {
     let second = blocks.iter().position(|b| b.seq == 1).unwrap();
     let corner = blocks[second].path.start();
     assert!((apart(corner, &points[1]) - 0.2).abs() < 1e-12);
-    let samples = blocks[..second].iter().flat_map(|b| {
-        (0..=20).map(|k| vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 20.0, v)))
-    });
+    let samples = blocks[..second]
+        .iter()
+        .flat_map(|b| (0..=20).map(|k| at(&b.path, b.path.length() * f64::from(k) / 20.0)));
     // two control points of 6 PATH_DEV / |du| are all that the corner takes of the edge
     let taken = 2.0 * 6.0 * 0.2 / 2.0_f64.sqrt();
     for q in samples.filter(|q| q[0] < 30.0 - taken) {
@@ -175,7 +172,7 @@ fn a_coarse_corner_does_not_slow_down_its_edges() {
     for kind in [Trapez, Hsc] {
         let job = Job::new(1.0, kind);
         let points = [vec![0.0, 0.0], vec![50.0, 0.0], vec![50.0, 50.0]];
-        let leg = |i: usize| job.drive(&[&points[i], &points[i + 1]], &[50.0]).len();
+        let leg = |i: usize| job.drive(&points[i..=i + 1], &[50.0]).len();
         let stopping = leg(0) + leg(1);
         for path_dev_mm in [0.001, 0.02, 0.2] {
             let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
@@ -195,7 +192,7 @@ fn a_coarse_corner_does_not_slow_down_its_edges() {
 fn a_needle_stays_a_corner() {
     let job = Job::new(1.0, Hsc);
     let points = [vec![0.0, 0.0], vec![10.0, 0.0], vec![0.0, 1e-4]];
-    let plain = job.drive(&[&points[0], &points[1], &points[2]], &[50.0]).len();
+    let plain = job.drive(&points, &[50.0]).len();
     let settings = SplineSettings { path_dev_mm: 0.1, ..SplineSettings::default() };
     let blocks = splined(&job, settings, &points, 50.0);
     assert!(blocks.iter().all(|b| b.path.is_straight()));
@@ -235,7 +232,7 @@ fn slaved_axes() {
         // the programmed angle at the same place of the polygon in X
         for b in &blocks {
             for k in 0..=10 {
-                let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 10.0, v));
+                let q = at(&b.path, b.path.length() * f64::from(k) / 10.0);
                 let i = (q[0].floor() as usize).min(points.len() - 2);
                 let want = points[i][2] + (q[0] - points[i][0]) * (points[i + 1][2] - points[i][2]);
                 assert!((q[2] - want).abs() <= 1.001 * track_dev_deg, "{} {want}", q[2]);
@@ -308,8 +305,7 @@ fn a_spline_takes_no_longer_than_its_polygon() {
         for shape in [ROUGH, GENTLE, EVEN, SQUARES] {
             for seed in 100..100 + count {
                 let points = polygon(shape, seed, 60);
-                let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-                let sharp = job.drive(&views, &[100.0]).len();
+                let sharp = job.drive(&points, &[100.0]).len();
                 for path_dev_mm in [1e-3, 0.01, 0.05, 0.2] {
                     let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
                     let blocks = splined(&job, settings, &points, 100.0);

@@ -1,38 +1,15 @@
 //! Rounded coordinates under the B-spline: speed, ripple, jerk, and the tolerance in both directions.
 
-use crate::common::{self, Job, channel, circle};
-use kontur_filters::time::CycleTime;
-use kontur_kit::{Random, environment};
-use kontur_motion::axis::{AxisDynamics, AxisVec, FeedSlope};
-use kontur_motion::block::SlopeKind::Hsc;
+use crate::common::{circle, norm};
+use crate::spline::{fast, splined};
+use kontur_kit::{Random, environment, from_polyline};
 use kontur_motion::block::{Block, SplineSettings};
-use kontur_motion::path::{LinePath, Path};
+use kontur_motion::path::Path;
 use kontur_motion::planner::Setpoint;
-use kontur_motion::spline::Splining;
-use kontur_motion::tolerance::Kernels;
-
-fn machine(axes: usize) -> Job {
-    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
-    let axis = AxisDynamics { a_max_mm_s2: 6000.0, feed, ..common::axis(1.0) };
-    Job { dynamics: channel(vec![axis; axes]), window: 400, ..Job::new(1.0, Hsc) }
-}
 
 fn rounded(points: &[Vec<f64>], decimals: i32) -> Vec<Vec<f64>> {
     let scale = libm::pow(10.0, f64::from(decimals));
     points.iter().map(|p| p.iter().map(|x| libm::round(x * scale) / scale).collect()).collect()
-}
-
-fn splined(job: &Job, settings: SplineSettings, points: &[Vec<f64>], feed: f64) -> Vec<Block> {
-    let mut stage = Splining::new(CycleTime::DEFAULT);
-    let mut out = Vec::new();
-    for (i, w) in points.windows(2).enumerate() {
-        let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
-        let Some(line) = LinePath::new(from, to, &job.dynamics.feed_axes) else { continue };
-        let block = job.block(i as u64, Path::Line(line), feed);
-        out.extend(stage.push(Block { spline: Some(settings), ..block }, &Kernels::default()));
-    }
-    out.extend(stage.flush(&Kernels::default()));
-    out
 }
 
 struct Judged {
@@ -59,7 +36,7 @@ fn judged(out: &[Setpoint]) -> Judged {
 /// the same jerk.
 #[test]
 fn a_rounded_circle_runs_as_an_exact_one() {
-    let job = machine(2);
+    let job = fast(2);
     let settings = SplineSettings { path_dev_mm: 0.05, ..SplineSettings::default() };
     for chord in [0.01, 0.05, 0.1, 0.3] {
         let run = |points: &[Vec<f64>]| {
@@ -82,7 +59,7 @@ fn a_rounded_circle_runs_as_an_exact_one() {
 /// took twice as long as with all decimals, longer than the polygon itself.
 #[test]
 fn small_circles_in_tiny_chords() {
-    let job = machine(2);
+    let job = fast(2);
     for radius in [0.5, 0.7, 1.0, 2.0] {
         for chord in [0.01, 0.02] {
             for path_dev_mm in [0.003, 0.01, 0.05] {
@@ -106,7 +83,7 @@ fn small_circles_in_tiny_chords() {
 /// A surface row with two rotary axes: rounding of all five coordinates costs no time.
 #[test]
 fn rounded_rotary_axes_cost_no_time() {
-    let mut job = machine(5);
+    let mut job = fast(5);
     let mut dynamics = (*job.dynamics).clone();
     dynamics.feed_axes = vec![true, true, true, false, false];
     job.dynamics = std::sync::Arc::new(dynamics);
@@ -152,20 +129,6 @@ fn contour(seed: u64, decimals: i32) -> Vec<Vec<f64>> {
     points
 }
 
-/// Distance of a point from a polyline.
-fn distance(p: &[f64], line: &[Vec<f64>]) -> f64 {
-    let mut best = f64::INFINITY;
-    for w in line.windows(2) {
-        let d: Vec<f64> = w[0].iter().zip(&w[1]).map(|(a, b)| b - a).collect();
-        let length2: f64 = d.iter().map(|c| c * c).sum();
-        let dot: f64 = d.iter().zip(p).zip(&w[0]).map(|((d, p), a)| d * (p - a)).sum();
-        let u = if length2 > 0.0 { (dot / length2).clamp(0.0, 1.0) } else { 0.0 };
-        let off2 = (0..p.len()).map(|i| p[i] - w[0][i] - u * d[i]).map(|e| e * e).sum::<f64>();
-        best = best.min(off2);
-    }
-    best.sqrt()
-}
-
 /// Points of the path over every programmed edge, `n + 1` of each.
 fn traced(blocks: &[Block], edges: usize, n: usize) -> Vec<Vec<Vec<f64>>> {
     let mut of_edge: Vec<Vec<&Path>> = vec![Vec::new(); edges];
@@ -194,7 +157,7 @@ fn traced(blocks: &[Block], edges: usize, n: usize) -> Vec<Vec<Vec<f64>>> {
 /// around it, and every programmed point to the path. `COUNT` raises the number of contours.
 #[test]
 fn the_whole_stays_within_the_tolerance() {
-    let job = machine(3);
+    let job = fast(3);
     let count = environment("COUNT", 8);
     let mut used = 0.0_f64;
     for seed in 0..count {
@@ -207,7 +170,7 @@ fn the_whole_stays_within_the_tolerance() {
                 let around = i.saturating_sub(2)..(i + 3).min(path.len());
                 let edges = &points[around.start..=around.end];
                 for q in &path[i] {
-                    let off = distance(q, edges);
+                    let off = norm(&from_polyline(q, edges));
                     used = used.max(off / path_dev_mm);
                     assert!(off <= path_dev_mm + 1e-9, "{seed} {path_dev_mm} edge {i}: {off}");
                 }
@@ -219,7 +182,7 @@ fn the_whole_stays_within_the_tolerance() {
                         .zip(&points[i + 1])
                         .map(|(a, b)| a + u * (b - a))
                         .collect();
-                    let off = distance(&p, &there);
+                    let off = norm(&from_polyline(&p, &there));
                     // twelve chords of the path replace it
                     assert!(
                         off <= 1.01 * path_dev_mm + 1e-9,
@@ -238,7 +201,7 @@ fn the_whole_stays_within_the_tolerance() {
 /// a hundredth, it may be decided differently.
 #[test]
 fn the_path_is_the_same_seen_otherwise() {
-    let job = machine(3);
+    let job = fast(3);
     let settings = SplineSettings { path_dev_mm: 0.02, ..SplineSettings::default() };
     for seed in 20..26 {
         let points = contour(seed, 3);

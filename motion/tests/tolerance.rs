@@ -2,72 +2,22 @@
 //!
 //! The deviation is measured independently, from setpoints, kernel taps and the corners of the program.
 
-use crate::common::{Job, axis, channel, deviation, filtered};
+use crate::common::{self, Job, deviation, filtered};
+use crate::promise::of_run;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::time::CycleTime;
-use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::Tolerance;
-use kontur_motion::deviation::Meter;
-use kontur_motion::deviation::Unkept;
-use kontur_motion::path::{LinePath, Path};
+use kontur_motion::deviation::{Meter, Unkept};
 use kontur_motion::planner::{Next, Planner};
-use kontur_motion::tolerance::Kernels;
-use std::sync::Arc;
 
 const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
 
-pub(crate) fn guarded(
-    mut job: Job,
-    mode: u8,
-    freq_hz: f64,
-    damping: f64,
-    ax_dev: Option<f64>,
-) -> Job {
-    let cycle = CycleTime::from_us(job.cycle_us).unwrap();
-    job.kernel = Some(VibGuardSettings { mode, freq_hz, damping }.kernel(cycle).unwrap());
-    job.tolerance = Tolerance { ax_dev_mm: ax_dev, acc_fact: 1.0 };
-    job
-}
-
-/// Largest deviation from any edge, or only from those within reach of the kernel, and the number of cycles.
+/// Largest deviation of a run from the contour, in either direction, and the number of cycles.
 fn worst(job: &Job, points: &[&[f64]], feed: f64) -> (f64, usize) {
     let out = job.drive(points, &[feed]);
-    let kernel = job.kernel.as_ref().unwrap();
-    let (last, reach) = (out.len() - 1, kernel.length() as usize);
-    let edge = |k: usize| out[k.min(last)].seq as usize;
-    let dev = |(k, p): (usize, &Vec<f64>)| {
-        let reached = &points[edge(k.saturating_sub(reach).max(1))..=edge(k.max(1)) + 1];
-        deviation(p, points).min(deviation(p, reached))
-    };
-    (filtered(&out, kernel).iter().enumerate().map(dev).fold(0.0, f64::max), last)
-}
-
-/// Largest deviation of the segments between set points from the edges within reach of the kernel, and of points of the
-/// edges from the set points of the time in which the kernel holds them.
-fn both_ways(job: &Job, points: &[&[f64]], feed: f64) -> f64 {
-    let kernel = job.kernel.as_ref().unwrap();
-    let out = job.drive(points, &[feed]);
-    let set = filtered(&out, kernel);
-    let joined: Vec<&[f64]> = set.iter().map(Vec::as_slice).collect();
-    let reach = kernel.length() as usize;
-    let edge = |k: usize| out[k.clamp(1, out.len() - 1)].seq as usize;
-    let between = |line: &[&[f64]]| -> Vec<Vec<f64>> {
-        let at = |u: f64| line[0].iter().zip(line[1]).map(|(a, b)| a + u * (b - a)).collect();
-        (0..=16).map(|i| at(f64::from(i) / 16.0)).collect()
-    };
-    let leaves = joined.windows(2).enumerate().flat_map(|(k, line)| {
-        let reached = &points[edge(k.saturating_sub(reach))..=edge(k + 1) + 1];
-        between(line).into_iter().map(move |p| deviation(&p, reached))
-    });
-    let misses = points.windows(2).enumerate().flat_map(|(i, line)| {
-        let first = (0..out.len()).find(|k| edge(*k) >= i).unwrap().saturating_sub(1);
-        let last = (0..out.len()).rfind(|k| edge(*k) <= i).unwrap() + reach + 2;
-        let held = &joined[first..last.min(joined.len())];
-        between(line).into_iter().map(move |p| deviation(&p, held))
-    });
-    leaves.chain(misses).fold(0.0, f64::max)
+    let [leaves, misses] = of_run(job, points, &out);
+    (leaves.0.max(misses.0), out.len() - 1)
 }
 
 #[test]
@@ -77,7 +27,7 @@ fn square_keeps_the_tolerance_in_every_mode() {
             for cycle_us in [500, 1000, 2000] {
                 for kind in [Trapez, Sin2, Hsc, Step] {
                     let job = Job { cycle_us, ..Job::new(1.0, kind) };
-                    let job = guarded(job, mode, freq, 0.1, Some(0.01));
+                    let job = job.guarded(mode, freq, 0.1, Some(0.01));
                     let (dev, cycles) = worst(&job, &SQUARE, 4000.0 / 60.0);
                     println!(
                         "mode {mode} {freq} Hz {cycle_us} us {kind:?}: {dev:.7} {}",
@@ -165,33 +115,29 @@ const F4000: f64 = 4000.0 / 60.0;
 
 /// A machine with sufficient acceleration for the corners: 3000 mm/s2.
 pub(crate) fn machine(axes: usize, ramp_s: f64) -> Job {
-    let mut fast = axis(1.0);
-    fast.feed.acc_mm_s2 = 3000.0;
-    fast.feed.dec_mm_s2 = 3000.0;
-    fast.feed.ramps_s = [ramp_s; 4];
-    Job { dynamics: channel(vec![fast; axes]), ..Job::new(1.0, Trapez) }
+    let dynamics = common::machine(axes, 1.0, 3000.0, ramp_s);
+    Job { dynamics, ..Job::new(1.0, Trapez) }
 }
 
 /// Smallest number of cycles with the same speed at all corners that keeps the tolerance, by brute force; up to the
 /// speed at which a single right angle exceeds it three times.
 fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usize> {
     const SPEEDS: u32 = 90;
-    let kernel = job.kernel.clone().unwrap();
+    let kernel = &job.kernels[0];
     let m1_s = kernel.m1_cycles() * f64::from(job.cycle_us) * 1e-6;
     let drive = |v: f64| {
         let blocks: Vec<_> = points
             .windows(2)
             .enumerate()
             .map(|(i, w)| {
-                let line = LinePath::new(AxisVec::from_slice(w[0]), AxisVec::from_slice(w[1]), &[]);
-                let mut block = job.block(i as u64, Path::Line(line.unwrap()), feed);
+                let mut block = job.line(i as u64, w[0], w[1], feed);
                 block.end_velocity_mm_s = Some(v);
                 block.tolerance = Tolerance::default();
                 block
             })
             .collect();
         let out = job.run(points[0], blocks.into_iter());
-        let keeps = filtered(&out, &kernel).iter().all(|p| deviation(p, points) <= tol);
+        let keeps = filtered(&out, &job.kernels).iter().all(|p| deviation(p, points) <= tol);
         keeps.then_some(out.len() - 1)
     };
     let step = 3.0 * tol / m1_s / f64::from(SPEEDS);
@@ -209,7 +155,7 @@ fn no_slower_than_the_best_uniform_corner_speed() {
             (3, 80.0, 0.01, 0.02),
             (4, 30.0, 0.05, 0.05),
         ] {
-            let job = guarded(machine(points[0].len(), ramp_s), mode, freq, 0.1, Some(tol));
+            let job = machine(points[0].len(), ramp_s).guarded(mode, freq, 0.1, Some(tol));
             let (dev, cycles) = worst(&job, points, F4000);
             assert!(dev <= tol, "{name}: {dev}");
             let best = best_uniform(&job, points, F4000, tol);
@@ -229,7 +175,7 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
     for (name, points) in contours() {
         for (mode, freq) in [(1, 40.0), (2, 60.0), (3, 20.0), (4, 30.0)] {
             let drive = |ax_dev| {
-                let job = guarded(machine(points[0].len(), 0.03), mode, freq, 0.1, ax_dev);
+                let job = machine(points[0].len(), 0.03).guarded(mode, freq, 0.1, ax_dev);
                 let out = job.drive(points, &[F4000]);
                 let bits: Vec<[u64; 4]> = out
                     .iter()
@@ -239,8 +185,8 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
                     out.iter().map(|s| s.position.iter().map(|x| x.to_bits()).collect()).collect();
                 (bits, places)
             };
-            let job = guarded(machine(points[0].len(), 0.03), mode, freq, 0.1, None);
-            let free = both_ways(&job, points, F4000);
+            let job = machine(points[0].len(), 0.03).guarded(mode, freq, 0.1, None);
+            let free = worst(&job, points, F4000).0;
             assert!(free > 1e-3, "{name}: {free}");
             let plain = drive(None);
             // 6 % more, because any candidate for the shortest vector counts
@@ -262,7 +208,7 @@ fn negative_weights_keep_the_tolerance_too() {
                 let fir = FirConfig { order, fcut_hz, ..FirConfig::new(FirKind::WindowedSinc) };
                 let mut job = machine(2, 0.01);
                 job.cycle_us = 2000;
-                job.kernel = Some(fir.design(cycle).0.unwrap());
+                job.kernels = vec![fir.design(cycle).0.unwrap()];
                 let (free, _) = worst(&job, points, F4000);
                 job.tolerance = Tolerance { ax_dev_mm: Some(tol), acc_fact: 1.0 };
                 let (dev, cycles) = worst(&job, points, F4000);
@@ -275,14 +221,12 @@ fn negative_weights_keep_the_tolerance_too() {
 
 /// The report for set points that are displaced, on a contour of straight lines with a tolerance of 0.01 mm.
 fn told_of_output(points: &[[f64; 2]], moved: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Unkept> {
-    let job = guarded(Job::new(1.0, Trapez), 1, 40.0, 0.1, Some(0.01));
+    let job = Job::new(1.0, Trapez).guarded(1, 40.0, 0.1, Some(0.01));
     let cycle = CycleTime::from_us(job.cycle_us).unwrap();
     let mut planner = Planner::new(cycle, job.window, &[0.0; 2]);
-    let kernel = job.kernel.clone().map(Arc::new);
-    planner.set_kernels(Kernels::new(vec![kernel; 2]), 0);
+    planner.set_kernels(job.kernels(2), 0);
     for (seq, ends) in (7..).zip(points.windows(2)) {
-        let [from, to] = [0, 1].map(|i| AxisVec::from_slice(&ends[i]));
-        planner.push(job.block(seq, Path::Line(LinePath::new(from, to, &[]).unwrap()), 50.0));
+        planner.push(job.line(seq, &ends[0], &ends[1], 50.0));
     }
     planner.finish();
     let (mut meter, mut told) = (Meter::default(), Vec::new());

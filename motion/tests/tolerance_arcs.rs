@@ -1,19 +1,13 @@
 //! `AX_DEV` beside and on arcs: what one place requires does not slow down the whole arc.
 
-use crate::common::Job;
-use crate::tolerance::{guarded, machine};
-use kontur_motion::axis::AxisVec;
+use crate::common::{self, Job, line};
+use crate::tolerance::machine;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 
 /// A blend of a line into an arc with a kink of a sixth of a degree, and two arcs at a corner: a larger tolerance never takes
 /// longer, neighbouring ones take nearly the same time, and an arc takes no longer than in five parts.
 #[test]
 fn arcs_take_no_longer_with_a_larger_tolerance_or_in_one_block() {
-    let line = |from: [f64; 2], to: [f64; 2]| {
-        let [from, to] = [from, to].map(|p| AxisVec::from_slice(&p));
-        Path::Line(LinePath::new(from, to, &[]).unwrap())
-    };
     // the centre lies on the bisector, `off` to the left of the chord
     let arc = |from: [f64; 2], to: [f64; 2], off: f64, sense: f64| {
         let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
@@ -23,11 +17,9 @@ fn arcs_take_no_longer_with_a_larger_tolerance_or_in_one_block() {
             0.5 * (from[1] + to[1]) + off * dx / chord,
         ];
         let half = libm::atan2(0.5 * chord, sense * off);
-        let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad: 2.0 * sense * half };
-        let [from, to] = [from, to].map(|p| AxisVec::from_slice(&p));
-        Path::Arc(ArcPath::new(from, to, shape, &[]).unwrap())
+        common::arc(&from, &to, centre_mm, 2.0 * sense * half)
     };
-    let blend = [line([0.0, 0.0], [-4.0, -0.7]), arc([-4.0, -0.7], [-5.65, -6.0], 1.424, 1.0)];
+    let blend = [line(&[0.0, 0.0], &[-4.0, -0.7]), arc([-4.0, -0.7], [-5.65, -6.0], 1.424, 1.0)];
     let corner = [
         arc([0.0, 0.0], [-4.2, -2.38], 0.63, -1.0),
         arc([-4.2, -2.38], [-4.18, -1.5], -1.69, -1.0),
@@ -37,7 +29,7 @@ fn arcs_take_no_longer_with_a_larger_tolerance_or_in_one_block() {
             let mut last: Option<usize> = None;
             for step in 0..11 {
                 let ax_dev_mm = 0.02 + 0.001 * f64::from(step);
-                let mut job = guarded(machine(2, 0.03), 2, 8.0, 0.1, Some(ax_dev_mm));
+                let mut job = machine(2, 0.03).guarded(2, 8.0, 0.1, Some(ax_dev_mm));
                 job.slope.kind = kind;
                 let blocks =
                     paths.iter().zip(0..).map(|(path, i)| job.block(i, path.clone(), 33.0));
@@ -66,18 +58,16 @@ fn arcs_take_no_longer_with_a_larger_tolerance_or_in_one_block() {
 #[test]
 fn an_arc_without_tolerance_is_slow_only_beside_the_corner() {
     const FEED_MM_S: f64 = 60.0;
-    let job = guarded(machine(2, 0.02), 2, 20.0, 0.1, Some(0.01));
-    let [start, corner] = [[0.0, 0.0], [10.0, 0.0]].map(|p| AxisVec::from_slice(&p));
-    let line = Path::Line(LinePath::new(start.clone(), corner.clone(), &[]).unwrap());
+    let job = machine(2, 0.02).guarded(2, 20.0, 0.1, Some(0.01));
+    let line = line(&[0.0, 0.0], &[10.0, 0.0]);
     // to the left, from 45 degrees on
     let off = 4.0 * 0.5_f64.sqrt();
-    let sweep_rad = std::f64::consts::TAU;
-    let shape = ArcShape { plane: [0, 1], centre_mm: [10.0 - off, off], sweep_rad };
-    let circle = Path::Arc(ArcPath::new(corner.clone(), corner, shape, &[]).unwrap());
+    let centre_mm = [10.0 - off, off];
+    let circle = common::arc(&[10.0, 0.0], &[10.0, 0.0], centre_mm, std::f64::consts::TAU);
     let mut last = job.block(1, circle, FEED_MM_S);
     last.tolerance.ax_dev_mm = None;
     let blocks = [job.block(0, line, FEED_MM_S), last];
-    let out = job.run(&start, blocks.into_iter());
+    let out = job.run(&[0.0; 2], blocks.into_iter());
     let circle: Vec<_> = out.iter().filter(|p| p.seq == 1).collect();
     let fast = circle.iter().filter(|p| p.v_mm_s > 0.99 * FEED_MM_S).count();
     assert!(2 * fast > circle.len(), "{fast} of {} cycles at the feed rate", circle.len());
@@ -87,15 +77,12 @@ fn an_arc_without_tolerance_is_slow_only_beside_the_corner() {
 /// rate and without a tolerance.
 #[test]
 fn a_circle_with_constant_ramp_times_has_one_speed() {
-    let start = AxisVec::from_slice(&[0.0, 0.0]);
-    let sweep_rad = -std::f64::consts::TAU;
-    let shape = ArcShape { plane: [0, 1], centre_mm: [2.0, 0.0], sweep_rad };
-    let circle = ArcPath::new(start.clone(), start.clone(), shape, &[]).unwrap();
+    let circle = common::arc(&[0.0; 2], &[0.0; 2], [2.0, 0.0], -std::f64::consts::TAU);
     for kind in [Trapez, Sin2] {
-        let mut job = guarded(machine(2, 0.02), 2, 60.0, 0.1, Some(0.02));
+        let mut job = machine(2, 0.02).guarded(2, 60.0, 0.1, Some(0.02));
         (job.slope.kind, job.slope.constant_ramp_time) = (kind, true);
         let run = |job: &Job, feed: f64| {
-            job.run(&start, std::iter::once(job.block(0, Path::Arc(circle.clone()), feed)))
+            job.run(&[0.0; 2], std::iter::once(job.block(0, circle.clone(), feed)))
         };
         let slow = run(&job, 130.0);
         let top = slow.iter().map(|p| p.v_mm_s).fold(0.0, f64::max);

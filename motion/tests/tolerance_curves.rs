@@ -68,17 +68,16 @@ fn only_the_sharp_part_of_a_curve_is_slow() {
         .map(|i| f64::from(i) / 1000.0)
         .map(|u| [WIDTH * u, HEIGHT * libm::pow(u, 5.0)])
         .collect();
-    let polygon: Vec<&[f64]> = polygon.iter().map(|p| &p[..]).collect();
     for kind in [Hsc, Trapez, Sin2] {
         let mut job = Job::new(1.0, kind);
         job.tolerance = Tolerance { ax_dev_mm: Some(TOLERANCE_MM), acc_fact: 1.0 };
-        job.kernel = Some(kernel.clone());
+        job.kernels = vec![kernel.clone()];
         let block = job.block(0, Path::Curve(Box::new(curve())), 200.0);
         let out = job.run(&[0.0, 0.0], std::iter::once(block));
         let seconds = cycle.time_of(out.len() as u64 - 1);
         let whole = length / allowed;
         assert!(seconds < 0.9 * whole, "{kind:?}: {seconds} s, at one speed {whole} s");
-        for (k, point) in filtered(&out, &kernel).iter().enumerate() {
+        for (k, point) in filtered(&out, &job.kernels).iter().enumerate() {
             let dev = deviation(point, &polygon);
             assert!(dev <= TOLERANCE_MM + 2e-5, "{kind:?}: {dev} mm in cycle {k}");
         }

@@ -229,23 +229,6 @@ pub fn largest_step(values: &[f64]) -> f64 {
     values.windows(2).map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max)
 }
 
-/// Shortest vector from a polyline to a point.
-pub fn from_polyline(point: &[f64], polyline: &[Vec<f64>]) -> Vec<f64> {
-    let mut best = (f64::INFINITY, vec![0.0; point.len()]);
-    for w in polyline.windows(2) {
-        let d: Vec<f64> = w[0].iter().zip(&w[1]).map(|(a, b)| b - a).collect();
-        let l2: f64 = d.iter().map(|c| c * c).sum();
-        let dot: f64 = d.iter().zip(point).zip(&w[0]).map(|((d, p), a)| d * (p - a)).sum();
-        let u = if l2 > 0.0 { (dot / l2).clamp(0.0, 1.0) } else { 0.0 };
-        let e: Vec<f64> = (0..point.len()).map(|i| point[i] - w[0][i] - u * d[i]).collect();
-        let n: f64 = e.iter().map(|c| c * c).sum();
-        if n < best.0 {
-            best = (n, e);
-        }
-    }
-    best.1
-}
-
 /// Envelope of a spring-mass model (`f_hz`, `damping`) after the last change of `u`, driven by `u` held over each cycle.
 pub fn residual_mm(u: &[f64], cycle_s: f64, f_hz: f64, damping: f64) -> f64 {
     let w = 2.0 * std::f64::consts::PI * f_hz;

@@ -1,8 +1,8 @@
 //! Rounded corners and splines of programs, judged only by the trace and the programmed geometry.
 
 use kontur_interpreter::diag::Condition;
-use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, from_polyline, run, there_and_back};
+use kontur_kit::{Random, count, from_polyline, seed};
+use kontur_tests::{Run, run, there_and_back};
 
 /// Messages about functions that are replaced by simpler ones.
 fn fallbacks(run: &Run) -> usize {

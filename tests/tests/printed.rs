@@ -15,7 +15,7 @@
 //!
 //! `KONTUR_WRITE_LEDGER=1 cargo test -p kontur-tests --test printed` rewrites the table of the folder's README.
 
-use kontur_tests::from_polyline;
+use kontur_kit::from_polyline;
 use kontur_tests::suite::{Head, Said, call, compare, files, folder, head, ledger, name};
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::collections::BTreeMap;

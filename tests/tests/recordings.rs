@@ -191,42 +191,6 @@ fn rest_and_many_drop_outs() {
     assert!(done.out.contains("    drop-outs  30 more\n"), "{}", done.out);
 }
 
-/// Names that do not exist are refused, with a list of those that do.
-#[test]
-fn wrong_names_are_refused() {
-    let bench = Bench::new();
-    std::fs::write(bench.path("scope.csv"), bench.export(&PLAIN, |_, _| {})).unwrap();
-    let (program, scope) = (bench.path("part.nc"), bench.path("scope.csv"));
-    for (map, text) in [
-        ("X_set_mm=Axes.Z.fSet", "it has Axes.X.fSet, Axes.Y.fSet"),
-        ("Q_set_mm=Axes.X.fSet", "no column `Q_set_mm`"),
-        ("X_set_mm", "COLUMN=CHANNEL"),
-        ("X_set_mm=0*Axes.X.fSet", "COLUMN=CHANNEL"),
-    ] {
-        let done = command(["diff", &program, &scope, "--map", map]);
-        assert_eq!(done.exit, Exit::Usage);
-        assert!(done.err.contains(text), "{}", done.err);
-    }
-    let done = command(["diff", &program, &scope]);
-    assert!(done.exit == Exit::Usage && done.err.contains("--map COLUMN=CHANNEL"), "{}", done.err);
-}
-
-/// Two traces need no machine: an option for one is a mistake, not a wish that is silently ignored.
-#[test]
-fn options_of_a_run_without_a_run_are_refused() {
-    let bench = Bench::new();
-    let trace = bench.path("trace.csv");
-    let run = command(["run", &bench.path("part.nc"), "-o", &trace]);
-    assert_eq!(run.exit, Exit::Finished, "{}", run.err);
-    assert_eq!(command(["diff", &trace, &trace]).exit, Exit::Finished);
-    for option in [["--machine", "missing"], ["--set", "X.getriebe[0].kv=1"]] {
-        let done = command([&["diff", &trace, &trace], &option[..]].concat());
-        assert!(done.exit == Exit::Usage && done.err.contains(option[0]), "{}", done.err);
-    }
-    let done = command(["response", "--hsc-mean", "20", "-m", "missing"]);
-    assert_eq!(done.exit, Exit::Usage, "{}", done.err);
-}
-
 /// A plain table of the motion itself: times printed with a given number of decimals, Y from a given time on.
 fn table(bench: &Bench, step_s: f64, decimals: usize, y_from_s: f64) -> String {
     let samples = ((bench.set.len() - 1) as f64 * 0.001 / step_s) as usize;

@@ -1,13 +1,14 @@
 //! The main use: the square program end to end, judged only by its trace and its geometry.
 
-use kontur_tests::{from_polyline, machine, programs, residual_mm, run};
+use kontur_kit::{from_polyline, largest};
+use kontur_tests::{machine, programs, residual_mm, run};
 
 fn square() -> Vec<Vec<f64>> {
     [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]].map(|p| p.to_vec()).to_vec()
 }
 
-fn largest(point: &[f64]) -> f64 {
-    from_polyline(point, &square()).iter().fold(0.0, |m, c| m.max(c.abs()))
+fn deviation(point: &[f64]) -> f64 {
+    largest(&from_polyline(point, &square()))
 }
 
 /// First pass within AX_DEV, second pass outside, third pass `set` = `ipo` bit for bit; no jump between the passes.
@@ -22,7 +23,7 @@ fn three_passes() {
         run.records.iter().filter(move |r| lines.contains(&r.line))
     };
     let dev =
-        |r: &kontur_interpreter::record::CycleRecord| largest(&[r.axes[0].set, r.axes[1].set]);
+        |r: &kontur_interpreter::record::CycleRecord| deviation(&[r.axes[0].set, r.axes[1].set]);
     assert!(pass("N30", "N60").map(dev).fold(0.0, f64::max) <= 0.01);
     assert!(pass("N80", "N110").map(dev).fold(0.0, f64::max) > 0.01);
     for r in pass("N130", "N160") {

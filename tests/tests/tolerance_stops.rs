@@ -2,7 +2,8 @@
 //! from outside. The contour is computed in this test, not taken from the program's own column.
 
 use kontur_interpreter::record::SpeedLimit;
-use kontur_tests::{Run, from_polyline, machine, run, run_with_inputs};
+use kontur_kit::{from_polyline, largest};
+use kontur_tests::{Run, machine, run, run_with_inputs};
 
 /// Rounding of the sums over the kernel.
 const SLACK_MM: f64 = 1e-9;
@@ -10,8 +11,7 @@ const SLACK_MM: f64 = 1e-9;
 /// Largest component of the deviation of the set positions from the polyline in the XY plane.
 fn off_polyline(run: &Run, corners: &[[f64; 2]]) -> f64 {
     let polyline: Vec<Vec<f64>> = corners.iter().map(|c| c.to_vec()).collect();
-    let off =
-        |p: &Vec<f64>| from_polyline(p, &polyline).iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let off = |p: &Vec<f64>| largest(&from_polyline(p, &polyline));
     run.set(2).iter().map(off).fold(0.0, f64::max)
 }
 

@@ -72,19 +72,6 @@ fn response_of_shapers_and_axes() {
     assert!(numbers[0].ends_with(numbers[1].trim_start_matches(',')), "{numbers:?}");
 }
 
-/// Conformance: A083, V018, V021.
-#[test]
-fn tune_answers_the_vendors_questions() {
-    let f = Folder::new();
-    let (exit, out, _) = f.call(&["tune", "--freq", "6.9,6.0,5.4"]);
-    assert_eq!(exit, Exit::Finished);
-    assert!(out.contains("proposal  #VIB GUARD ON [MODE=2 FREQ=6."), "{out}");
-    assert!(out.contains("#VIB GUARD ON [MODE=2 FREQ=6 DAMPING=0.1]"), "{out}");
-    let (exit, out, _) = f.call(&["tune", "--order-for", "0.1", "--feed", "F2000"]);
-    assert_eq!(exit, Exit::Finished);
-    assert!(out.contains("[ORDER=23]") && out.contains("[ORDER=22]"), "{out}");
-}
-
 #[test]
 fn tune_judges_the_choices_on_a_program() {
     let f = Folder::new();
@@ -198,18 +185,6 @@ fn sweep_has_a_row_for_every_combination() {
         assert_eq!(f.call(&words("@a.parquet")).0, Exit::Finished);
         assert!(std::fs::read(f.path("a.parquet")).unwrap().ends_with(b"PAR1"));
     }
-}
-
-/// Runs that end with an error have rows; the command fails only if no run finishes.
-#[test]
-fn sweep_of_aborted_runs() {
-    let f = Folder::new();
-    let vary = "X.vib_guard.mode=1,2";
-    let (exit, out, _) = f.call(&["sweep", "@bad.nc", "--vary", vary, "--columns", "cycles"]);
-    assert_eq!(exit, Exit::Aborted);
-    let rows: Vec<&str> = out.lines().collect();
-    assert_eq!(rows[0], "X.vib_guard.mode,state,error,warnings,cycles");
-    assert!(rows[1].starts_with("1,aborted,20131,0,") && rows.len() == 3, "{out}");
 }
 
 /// Columns over time, and the variants of one program in one picture.

@@ -32,9 +32,12 @@ fn mistakes(folder: &Folder, row: &str) -> Option<String> {
     wrong |= exit == Exit::Usage && files(folder) != before;
     place = place.strip_prefix(code).unwrap_or_default().trim();
     while let Some(part) = parts.next() {
+        let part = &part.replace('\'', "\"")[..];
         wrong |= match place {
             "" if code == "0" => !out.contains(part),
             "" | "err" => !err.contains(part),
+            "out" => !out.contains(part),
+            "once" => err.matches(part).count() != 1,
             "no" => out.contains(part) || err.contains(part),
             place => panic!("{row}: {place}"),
         };
@@ -52,7 +55,9 @@ fn commands_answer_as_their_rows_say() {
             match row.strip_prefix("file ").and_then(|file| file.split_once(':')) {
                 Some((name, text)) => {
                     let text = text.trim().replace(" | ", "\n");
-                    std::fs::write(folder.path(name), text).unwrap();
+                    let path = folder.path(name);
+                    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                    std::fs::write(path, text).unwrap();
                 }
                 None => wrong.extend(mistakes(&folder, row)),
             }

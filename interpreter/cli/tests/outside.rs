@@ -129,20 +129,6 @@ fn an_aborted_run_leaves_a_whole_trace() {
 }
 
 #[test]
-fn what_a_check_sees_refuses_a_run() {
-    let f = Folder::new();
-    let (exit, out, err) = f.call(&["run", "@bad.nc", "-o", "@bad.csv", "--diagnostics", "json"]);
-    assert_eq!((exit, out.contains("aborted")), (Exit::Aborted, true), "{out}");
-    let message: serde_json::Value = serde_json::from_str(err.trim()).unwrap();
-    assert_eq!((&message["id"], &message["source"]["line"]), (&20131.into(), &6.into()));
-    assert!(!f.path("bad.csv").exists());
-    let (exit, _, err) = f.call(&["check", "@bad.nc", "@corner.nc"]);
-    assert_eq!(exit, Exit::Aborted);
-    assert!(err.contains("6 | N60 G777 X0\n  |     ^^^^"), "{err}");
-    assert_eq!(f.call(&["check", "@corner.nc"]).0, Exit::Finished);
-}
-
-#[test]
 fn diff_names_line_and_recognises_a_shift() {
     let f = Folder::new();
     for name in ["corner", "slow"] {
@@ -177,16 +163,6 @@ fn diff_names_line_and_recognises_a_shift() {
     let (exit, out, _) = f.call(&["diff", "@corner.csv", "@two.csv"]);
     assert_eq!(exit, Exit::Aborted);
     assert!(out.contains("  times  row 1 is at 0.001000 s in A and at 0.002000 s in B: "), "{out}");
-}
-
-#[test]
-fn diff_runs_a_program_with_the_columns_of_the_trace() {
-    let f = Folder::new();
-    f.call(&["run", "@corner.nc", "-o", "@a.csv", "--signals", "set,X_lag_mm"]);
-    assert_eq!(f.call(&["diff", "@a.csv", "@corner.nc"]).0, Exit::Finished);
-    assert_eq!(f.call(&["diff", "@corner.nc", "@a.csv"]).0, Exit::Finished);
-    assert_eq!(f.call(&["diff", "@a.csv", "@slow.nc"]).0, Exit::Aborted);
-    assert_eq!(f.call(&["diff", "@corner.nc", "@corner.nc"]).0, Exit::Finished);
 }
 
 /// An approved trace of a program that does not reach its end must not stay approved.

@@ -157,7 +157,8 @@ impl Chain<'_> {
         self.read(kind, &self.path(named), setting.at.clone())
     }
 
-    fn read_all(&mut self, overrides: &[Override]) -> Option<Settled> {
+    /// The start-up list; `None` if there is none that can be read.
+    fn start_up_list(&mut self, overrides: &[Override]) -> Option<Parameters> {
         let mut start_up = Parameters::new(ListKind::StartUp);
         start_up.apply(&self.read(ListKind::StartUp, self.start_up, None)?);
         self.override_list(&mut start_up, "start_up", overrides);
@@ -176,9 +177,14 @@ impl Chain<'_> {
             diagnostic.source = start_up.set_by(stup::CHANNEL_COUNT).and_then(|s| s.at.clone());
             self.diagnostics.push(diagnostic);
         }
+        Some(start_up)
+    }
+
+    /// The list of the channel over its defaults.
+    fn channel_lists(&mut self, start_up: &Parameters, overrides: &[Override]) -> Parameters {
         let mut channel = Parameters::new(ListKind::Channel);
         for param in [stup::CHANNEL_DEFAULTS, stup::CHANNEL_LIST] {
-            if let Some(list) = self.read_named(&start_up, ListKind::Channel, param) {
+            if let Some(list) = self.read_named(start_up, ListKind::Channel, param) {
                 channel.apply(&list);
             }
         }
@@ -191,6 +197,27 @@ impl Chain<'_> {
                 .push(Diagnostic::new(Condition::ListLink, message).parameter(stup::CHANNEL_LIST));
         }
         self.override_list(&mut channel, "channel", overrides);
+        channel
+    }
+
+    /// `kontur.lis`, if there is one.
+    fn own_list(&mut self, overrides: &[Override]) -> Parameters {
+        let mut own = Parameters::new(ListKind::Kontur);
+        let path = self.path(OWN_LIST);
+        match lists::find(self.files, &path) {
+            Ok(None) => {}
+            Ok(Some(found)) => own.apply(&self.list(ListKind::Kontur, &path, &found, None)),
+            Err(reason) => {
+                self.diagnostics.push(unreadable(&path, &reason, UNREADABLE));
+            }
+        }
+        self.override_list(&mut own, "kontur", overrides);
+        own
+    }
+
+    fn read_all(&mut self, overrides: &[Override]) -> Option<Settled> {
+        let start_up = self.start_up_list(overrides)?;
+        let channel = self.channel_lists(&start_up, overrides);
         let defaults = self.read_named(&start_up, ListKind::Axis, stup::AXIS_DEFAULTS);
         let mut axes = Vec::new();
         for file in self.axis_files(&start_up) {
@@ -203,16 +230,7 @@ impl Chain<'_> {
             let named = start_up.get(file).unwrap_or_default();
             axes.push(AxisList { file: self.path(&named), parameters });
         }
-        let mut own = Parameters::new(ListKind::Kontur);
-        let path = self.path(OWN_LIST);
-        match lists::find(self.files, &path) {
-            Ok(None) => {}
-            Ok(Some(found)) => own.apply(&self.list(ListKind::Kontur, &path, &found, None)),
-            Err(reason) => {
-                self.diagnostics.push(unreadable(&path, &reason, UNREADABLE));
-            }
-        }
-        self.override_list(&mut own, "kontur", overrides);
+        let own = self.own_list(overrides);
         let tools = self.data(&start_up, ListKind::Tool, stup::TOOL_LIST, ("tool", overrides));
         let zero = self.data(&start_up, ListKind::Zero, stup::ZERO_LIST, ("zero", overrides));
         let named = [stup::EXTERNAL_LIST, stup::OLD_EXTERNAL_LIST]

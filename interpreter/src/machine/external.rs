@@ -47,6 +47,19 @@ pub(crate) struct ExternalVariables {
     pub(crate) init: Vec<(String, Option<Location>)>,
 }
 
+/// The first variable beyond P-EXTV-00010.
+fn more_than_counted(list: &Parameters, count: u32) -> Option<Diagnostic> {
+    let name = of::NAME.place().row;
+    let mut settings = list.settings();
+    let (_, first) = settings.find(|([i, _], setting)| setting.row == name && *i >= count)?;
+    let text = format!(
+        "{}: more external variables than number_used_variables = {count}, ignored",
+        first.value.text().unwrap_or_default()
+    );
+    let about = Diagnostic::new(Condition::ListCount, text).parameter(of::COUNT);
+    Some(at(about, first))
+}
+
 impl ExternalVariables {
     /// The variables of a list: up to P-EXTV-00010, and up to the first one with an unknown type (20088).
     pub(super) fn new(list: &Parameters, diagnostics: &mut Vec<Diagnostic>) -> Self {
@@ -54,15 +67,7 @@ impl ExternalVariables {
             |param: Place| list.settings().filter(move |(_, setting)| setting.row == param.row);
         let mut variables: Vec<ExternalVariable> = Vec::new();
         let count = list.get(of::COUNT);
-        let mut more = entries(of::NAME.place()).filter(|([i, _], _)| *i >= count);
-        if let Some((_, first)) = more.next() {
-            let text = format!(
-                "{}: more external variables than number_used_variables = {count}, ignored",
-                first.value.text().unwrap_or_default()
-            );
-            let about = Diagnostic::new(Condition::ListCount, text).parameter(of::COUNT);
-            diagnostics.push(at(about, first));
-        }
+        diagnostics.extend(more_than_counted(list, count));
         for ([i, _], setting) in entries(of::NAME.place()).filter(|([i, _], _)| *i < count) {
             let Some(name) = list.get(of::NAME.at(i)).filter(|name| !name.is_empty()) else {
                 continue;

@@ -107,7 +107,6 @@ pub(super) fn check(
         let text = format!("{key} is not simulated: {instead}");
         diagnostics.push(without_effect(setting, &text, axis).hint(HINT));
     }
-    let number = |place: Place| parameters.listed(place).unwrap_or_default();
     let mut values = |place: Place, acts: bool, instead: &str, hint: &str| {
         if let (Some(setting), true) = (parameters.set_by(place), acts) {
             let text = format!("{place}: {instead}");
@@ -115,41 +114,7 @@ pub(super) fn check(
         }
     };
     match parameters.kind() {
-        ListKind::Axis => {
-            let place = axis_general::LIMIT_BEHAVIOUR.place();
-            let behaviour = parameters.of(place.row, place.indices);
-            values(
-                place,
-                behaviour == Some(Value::Text("ERROR_LR".to_owned())),
-                "ERROR_LR acts as ERROR, a position outside the software limits ends the program",
-                "WARNING lets the program run and the axis cross the limit",
-            );
-            let place = axis_functions::PROBE_EDGE.place();
-            let edge = parameters.of(place.row, place.indices);
-            values(
-                place,
-                edge == Some(Value::Text("NEG".to_owned())),
-                "the probe signals at its rising edge",
-                HINT,
-            );
-            let kind = kind_of(parameters);
-            let place = axis_functions::MODULO_CALCULATION.place();
-            let acts = match kind {
-                AxisKind::Linear => number(place) > 0.0,
-                AxisKind::Rotary => false,
-                AxisKind::Spindle => number(place).total_cmp(&0.0).is_eq(),
-            };
-            let of = if kind == AxisKind::Linear {
-                "a linear axis is not counted modulo"
-            } else {
-                "a spindle is counted modulo"
-            };
-            values(place, acts, of, HINT);
-            let place = axis_functions::LIMIT_CHECK.place();
-            let is_modulo = parameters.get(axis_general::MODE) & mode::MODULO != 0;
-            let acts = number(place) > 0.0 && is_modulo && kind != AxisKind::Linear;
-            values(place, acts, "a modulo axis has no software limits", HINT);
-        }
+        ListKind::Axis => axis_functions_of(parameters, &mut values),
         ListKind::Channel => {
             let places = [channel::LOOK_AHEAD.place(), channel::LOOK_AHEAD_BLOCKS.place()];
             interpolator(places, parameters, &mut values);
@@ -160,6 +125,44 @@ pub(super) fn check(
         }
         _ => {}
     }
+}
+
+/// Values of the list of an axis that act like others.
+fn axis_functions_of(parameters: &Parameters, values: &mut impl FnMut(Place, bool, &str, &str)) {
+    let number = |place: Place| parameters.listed(place).unwrap_or_default();
+    let place = axis_general::LIMIT_BEHAVIOUR.place();
+    let behaviour = parameters.of(place.row, place.indices);
+    values(
+        place,
+        behaviour == Some(Value::Text("ERROR_LR".to_owned())),
+        "ERROR_LR acts as ERROR, a position outside the software limits ends the program",
+        "WARNING lets the program run and the axis cross the limit",
+    );
+    let place = axis_functions::PROBE_EDGE.place();
+    let edge = parameters.of(place.row, place.indices);
+    values(
+        place,
+        edge == Some(Value::Text("NEG".to_owned())),
+        "the probe signals at its rising edge",
+        HINT,
+    );
+    let kind = kind_of(parameters);
+    let place = axis_functions::MODULO_CALCULATION.place();
+    let acts = match kind {
+        AxisKind::Linear => number(place) > 0.0,
+        AxisKind::Rotary => false,
+        AxisKind::Spindle => number(place).total_cmp(&0.0).is_eq(),
+    };
+    let of = if kind == AxisKind::Linear {
+        "a linear axis is not counted modulo"
+    } else {
+        "a spindle is counted modulo"
+    };
+    values(place, acts, of, HINT);
+    let place = axis_functions::LIMIT_CHECK.place();
+    let is_modulo = parameters.get(axis_general::MODE) & mode::MODULO != 0;
+    let acts = number(place) > 0.0 && is_modulo && kind != AxisKind::Linear;
+    values(place, acts, "a modulo axis has no software limits", HINT);
 }
 
 /// Blocks of look-ahead that the control uses with other slopes than STEP (829047947).

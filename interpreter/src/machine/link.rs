@@ -243,16 +243,7 @@ pub(super) fn machine(
         let kind = kind_of(&parameters);
         gantry_slaves.push(Axis::new(name.clone(), kind, parameters, own_of(&own, *number)));
     }
-    let left: Vec<String> = lists.iter().flatten().map(called).collect();
-    // an error in the names may be the reason why a list has none
-    if !left.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
-        let message =
-            format!("axis lists not named by a channel, not simulated: {}", left.join(", "));
-        let hint = "name them in the channel list (gruppe[0].achse[i]); a gantry slave requires its master \
-                    (kenngr.gantry_ax_nr)";
-        let note = Diagnostic::new(Condition::ListNoEffect, message).severity(Severity::Note);
-        diagnostics.push(note.hint(hint));
-    }
+    note_unnamed(&lists, diagnostics);
     let channel = Channel::new(channel, start_up, marked);
     let tools = tools::tools(&tools, axes.len(), diagnostics);
     let zero_offsets = tools::zero_offsets(&zero, axes.len(), diagnostics);
@@ -267,6 +258,20 @@ pub(super) fn machine(
         zero_offsets,
         external: ExternalVariables::new(&external, diagnostics),
     })
+}
+
+/// Says which lists of axes no channel names.
+fn note_unnamed(lists: &[Option<Parameters>], diagnostics: &mut Vec<Diagnostic>) {
+    let left: Vec<String> = lists.iter().flatten().map(called).collect();
+    // an error in the names may be the reason why a list has none
+    if !left.is_empty() && !diagnostics.iter().any(Diagnostic::is_error) {
+        let message =
+            format!("axis lists not named by a channel, not simulated: {}", left.join(", "));
+        let hint = "name them in the channel list (gruppe[0].achse[i]); a gantry slave requires its master \
+                    (kenngr.gantry_ax_nr)";
+        let note = Diagnostic::new(Condition::ListNoEffect, message).severity(Severity::Note);
+        diagnostics.push(note.hint(hint));
+    }
 }
 
 /// Number and name of an axis list.

@@ -100,14 +100,7 @@ fn check_value(
     let key = with_indices(row.key, indices);
     let at = parameters.set_by(Place { row, indices }).and_then(|s| s.at.clone());
     let corrected = correction(row, reaction, bound, below);
-    let range = match (low, high) {
-        (Some(l), Some(h)) => {
-            format!("{} {}", describe(l, "from", "above"), describe(h, "to", "below"))
-        }
-        (Some(l), None) => describe(l, "at least", "above"),
-        (None, Some(h)) => describe(h, "at most", "below"),
-        (None, None) => String::new(),
-    };
+    let range = range_of(low, high);
     let default = if at.is_none() { "default " } else { "" };
     let unit = unit_of(parameters, row);
     let of = if unit == "-" { String::new() } else { format!(" {unit}") };
@@ -154,6 +147,18 @@ pub(super) fn finish(
 fn unit_of(parameters: &Parameters, row: &Row) -> &'static str {
     let linear = parameters.kind() != ListKind::Axis || kind_of(parameters) == AxisKind::Linear;
     if linear { row.unit } else { row.unit_rotary }
+}
+
+/// A range in words.
+fn range_of(low: Option<End>, high: Option<End>) -> String {
+    match (low, high) {
+        (Some(l), Some(h)) => {
+            format!("{} {}", describe(l, "from", "above"), describe(h, "to", "below"))
+        }
+        (Some(l), None) => describe(l, "at least", "above"),
+        (None, Some(h)) => describe(h, "at most", "below"),
+        (None, None) => String::new(),
+    }
 }
 
 fn describe(end: End, allowed: &str, excluded: &str) -> String {

@@ -60,6 +60,21 @@ pub struct Project<'a> {
     said: Vec<Diagnostic>,
 }
 
+/// Beginnings of the keys of the start-up list that name lists.
+const NAMING_LISTS: [&str; 11] = [
+    "listen",
+    "kanal_anzahl",
+    "zahl_mds",
+    "achs_mds[",
+    "default_achs_mds",
+    "default_sda_mds",
+    "sda_mds[",
+    "werkz_data[",
+    "nullp_data[",
+    "ve_var[",
+    "ext_var[",
+];
+
 impl fmt::Debug for Project<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Project").field("lists", &self.lists.keys()).finish_non_exhaustive()
@@ -189,20 +204,7 @@ impl<'a> Project<'a> {
 
         let entries = self.list_entries(&content);
         let mut start_up = content.start_up.take().unwrap_or_default();
-        let own = [
-            "listen",
-            "kanal_anzahl",
-            "zahl_mds",
-            "achs_mds[",
-            "default_achs_mds",
-            "default_sda_mds",
-            "sda_mds[",
-            "werkz_data[",
-            "nullp_data[",
-            "ve_var[",
-            "ext_var[",
-        ];
-        start_up.replace(&own, &entries);
+        start_up.replace(&NAMING_LISTS, &entries);
         self.lists.insert(self.start_up.clone(), start_up.placed());
 
         let mut note = spindles_of(&channel);

@@ -5,6 +5,7 @@
 
 mod control;
 mod filters;
+mod formats;
 mod ipc;
 mod monitors;
 mod plant;

@@ -14,7 +14,7 @@ use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use crate::diag::Diagnostic;
 use crate::exec::Options;
-use crate::machine::Machine;
+use crate::machine::{ChainSetup, Machine};
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
@@ -38,15 +38,7 @@ impl Simulation {
         let (program, start, found) = Program::new(sources, program, Arc::clone(&machine), options);
         let n = machine.axes.len();
         let drivers = drivers(&machine);
-        let chain = |(i, setup): (usize, _)| {
-            let x = match drivers.get(i) {
-                Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
-                _ => 0.0,
-            };
-            let chain = AxisChain::new(setup, x, AxisInputs::default(), cycle);
-            chain.map_err(|e| vec![fault::plant(&e, &machine, i)])
-        };
-        let chains = setups.into_iter().enumerate().map(chain).collect::<Result<Vec<_>, _>>()?;
+        let chains = chains_at(&start, setups, &drivers, &machine)?;
         let window = machine.channel.look_ahead_blocks as usize;
         let spindles: Vec<_> = machine
             .spindles
@@ -120,4 +112,22 @@ pub(crate) fn impossible_axes(machine: &Machine) -> Vec<Diagnostic> {
         chain.err().map(|e| fault::plant(&e, machine, i))
     };
     chains.filter_map(error).collect()
+}
+
+/// The chain of every axis, at the position where its driver starts.
+fn chains_at(
+    start: &[f64],
+    setups: Vec<ChainSetup>,
+    drivers: &[Driver],
+    machine: &Machine,
+) -> Result<Vec<AxisChain>, Vec<Diagnostic>> {
+    let chain = |(i, setup): (usize, _)| {
+        let x = match drivers.get(i) {
+            Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
+            _ => 0.0,
+        };
+        let chain = AxisChain::new(setup, x, AxisInputs::default(), machine.cycle);
+        chain.map_err(|e| vec![fault::plant(&e, machine, i)])
+    };
+    setups.into_iter().enumerate().map(chain).collect()
 }

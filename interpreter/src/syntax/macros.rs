@@ -75,23 +75,7 @@ pub(crate) fn expand<'m>(
         out.text.push_str(quote);
         if let Err(wrong) = insert(text, is_number, 1, lookup, &mut out.text) {
             let location = raw.locate(file, Span::new(range.start, range.end));
-            let diagnostic = match wrong {
-                Wrong::TooDeep => {
-                    let text = format!("macros nested more than {MACRO_DEPTH_MAX} deep");
-                    Diagnostic::new(Condition::MacroNesting, text)
-                }
-                Wrong::HalfBracket(text) => {
-                    let shown: String = text.chars().take(40).collect();
-                    let text = format!("the macro text `{shown}` has an unmatched bracket");
-                    Diagnostic::new(Condition::MacroBracket, text)
-                }
-                Wrong::Control(text) => {
-                    let shown: String = text.chars().take(40).collect();
-                    let text = format!("the macro text `{shown}` contains a control statement ($)");
-                    Diagnostic::new(Condition::MacroControl, text)
-                }
-            };
-            return Err(Box::new(diagnostic.at(location)));
+            return Err(Box::new(wrong.diagnostic().at(location)));
         }
         out.text.push_str(quote);
         let place = Span::new(start, out.text.len());
@@ -147,6 +131,27 @@ enum Wrong<'m> {
     HalfBracket(&'m str),
     /// This text contains a `$`: the structure of a program is determined before its macros are known.
     Control(&'m str),
+}
+
+impl Wrong<'_> {
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::TooDeep => {
+                let text = format!("macros nested more than {MACRO_DEPTH_MAX} deep");
+                Diagnostic::new(Condition::MacroNesting, text)
+            }
+            Self::HalfBracket(text) => {
+                let shown: String = text.chars().take(40).collect();
+                let text = format!("the macro text `{shown}` has an unmatched bracket");
+                Diagnostic::new(Condition::MacroBracket, text)
+            }
+            Self::Control(text) => {
+                let shown: String = text.chars().take(40).collect();
+                let text = format!("the macro text `{shown}` contains a control statement ($)");
+                Diagnostic::new(Condition::MacroControl, text)
+            }
+        }
+    }
 }
 
 /// Appends the text of a macro with its own macros replaced. The number of a function is one value: `G"A"` is

@@ -2,14 +2,10 @@
 
 use super::Job;
 use kontur_filters::time::CycleTime;
-use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Block;
-use kontur_motion::path::{LinePath, Path};
 use kontur_motion::planner::{Next, Planner, Setpoint};
 use kontur_motion::profile::Infeasible;
 use kontur_motion::realtime::{FeedholdBraking, OverrideMode, OverrideRatios};
-use kontur_motion::tolerance::Kernels;
-use std::sync::Arc;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Event {
@@ -29,8 +25,7 @@ pub(crate) fn drive(
     let cycle = CycleTime::from_us(job.cycle_us).unwrap();
     let mut planner = Planner::new(cycle, job.window, start);
     planner.set_override_mode(OverrideMode::OfReached);
-    let kernel = job.kernel.clone().map(Arc::new);
-    planner.set_kernels(Kernels::new(vec![kernel; start.len()]), 0);
+    planner.set_kernels(job.kernels(start.len()), 0);
     let mut blocks = blocks.into_iter();
     let mut events = events.iter().peekable();
     let mut out = vec![planner.setpoint().clone()];
@@ -53,10 +48,6 @@ pub(crate) fn drive(
         }
         assert!(out.len() < 1_000_000, "does not come to an end");
     }
+    assert!(planner.take_unkept().is_empty());
     Ok(out)
-}
-
-pub(crate) fn line(job: &Job, seq: u64, from: &[f64], to: &[f64], feed: f64) -> Block {
-    let path = LinePath::new(AxisVec::from_slice(from), AxisVec::from_slice(to), &[]).unwrap();
-    job.block(seq, Path::Line(path), feed)
 }

@@ -1,8 +1,8 @@
 //! The time on a curve compared with what its limits at every point permit.
 
-use super::{contoured_at, curvature, line, tangent};
-use crate::common::{Job, axis, channel};
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
+use super::contoured_at;
+use crate::common::{Job, curvature, line, machine, second_order_time, tangent};
+use kontur_kit::largest;
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
 use kontur_motion::block::{Block, ContourMode, ContourSettings, CurveJerk};
 
@@ -15,37 +15,26 @@ const GRID: u32 = 2000;
 /// each axis at every point, forwards and backwards over a grid.
 fn least_s(blocks: &[Block], feed: f64) -> f64 {
     let (mut steps, mut squares, mut rates) = (Vec::new(), Vec::new(), Vec::new());
-    let share = |values: &[f64]| values.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     for block in blocks {
         let step = block.path.length() / f64::from(GRID);
         for k in 0..GRID {
             let s = step * (f64::from(k) + 0.5);
-            let bend = share(&curvature(&block.path, s));
+            let bend = largest(&curvature(&block.path, s));
             steps.push(step);
             squares.push((ACC_MM_S2 / bend.max(1e-9)).min(feed * feed));
-            rates.push(ACC_MM_S2 / share(&tangent(&block.path, s)));
+            rates.push(ACC_MM_S2 / largest(&tangent(&block.path, s)));
         }
     }
-    let n = steps.len();
-    // at the node before each interval
-    let mut square: Vec<f64> = (0..=n)
-        .map(|k| if k == 0 || k == n { 0.0 } else { f64::min(squares[k - 1], squares[k]) })
-        .collect();
-    for k in (0..n).rev() {
-        square[k] = square[k].min(square[k + 1] + 2.0 * rates[k] * steps[k]);
-    }
-    for k in 0..n {
-        square[k + 1] = square[k + 1].min(square[k] + 2.0 * rates[k] * steps[k]);
-    }
-    (0..n).map(|k| 2.0 * steps[k] / (square[k].sqrt() + square[k + 1].sqrt())).sum()
+    let inner = squares.windows(2).map(|pair| f64::min(pair[0], pair[1]));
+    let mut limit: Vec<f64> = std::iter::once(0.0).chain(inner).chain([0.0]).collect();
+    second_order_time(&mut limit, &rates, &steps)
 }
 
 /// Curves that are all of the path, with ramps that hardly matter: nothing but the limits of the curve counts.
 #[test]
 fn a_curve_is_as_fast_as_each_of_its_points_permits() {
     let ramp = 0.0005;
-    let feed = FeedSlope { acc_mm_s2: ACC_MM_S2, dec_mm_s2: ACC_MM_S2, ramps_s: [ramp; 4] };
-    let dynamics = channel(vec![AxisDynamics { feed, ..axis(1.0) }; 2]);
+    let dynamics = machine(2, 1.0, ACC_MM_S2, ramp);
     let mut most = 0.0_f64;
     for kind in [Hsc, Trapez] {
         for degrees in [30.0_f64, 60.0, 90.0, 120.0, 150.0] {

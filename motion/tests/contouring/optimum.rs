@@ -37,15 +37,8 @@ fn table() -> Vec<Row> {
 fn ratio(row: &Row, kind: SlopeKind) -> Option<f64> {
     let job =
         Job { dynamics: channel(row.axes.clone()), cycle_us: CYCLE_US, ..Job::new(1.0, kind) };
-    let mut stage = Contouring::new(CycleTime::from_us(CYCLE_US).unwrap());
-    let mut blocks = Vec::new();
-    for (ends, seq) in row.points.windows(2).zip(1..) {
-        let block = job.block(seq, line(&ends[0], &ends[1]), row.feed_mm_s);
-        blocks.extend(
-            stage.push(Block { contour: Some(dev(row.path_dev_mm)), ..block }, &Kernels::default()),
-        );
-    }
-    blocks.extend(stage.flush());
+    let paths = row.points.windows(2).map(|ends| line(&ends[0], &ends[1]));
+    let (blocks, _) = contoured_at(row.feed_mm_s, &job, dev(row.path_dev_mm), paths);
     let kinks = blocks.windows(2).any(|w| {
         let [a, b] = [&w[0].path, &w[1].path];
         apart(&tangent(a, a.length()), &tangent(b, 0.0)) > 1e-6

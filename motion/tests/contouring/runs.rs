@@ -117,11 +117,7 @@ fn slaved_axes() {
     let mut dynamics = (*channel(vec![axis(1.0); 3])).clone();
     dynamics.feed_axes = vec![true, true, false];
     let job = Job { dynamics: Arc::new(dynamics), ..Job::new(1.0, Trapez) };
-    let mask = [true, true, false];
-    let path = |from: &[f64], to: &[f64]| {
-        let (from, to) = (AxisVec::from_slice(from), AxisVec::from_slice(to));
-        Path::Line(LinePath::new(from, to, &mask).unwrap())
-    };
+    let path = |from: &[f64], to: &[f64]| job.line(0, from, to, 1.0).path;
     let paths = || {
         [path(&[-20.0, 0.0, 0.0], &[0.0, 0.0, 40.0]), path(&[0.0, 0.0, 40.0], &[0.0, 20.0, 0.0])]
     };

@@ -1,37 +1,31 @@
 //! Effects that a larger tolerance of contouring must not have, and the tolerance of the axes on curves.
 
-use super::{at, contoured_at, dev, line};
-use crate::common::{Job, deviation, filtered, peaks};
-use kontur_filters::time::CycleTime;
-use kontur_filters::vib_guard::VibGuardSettings;
+use super::{contoured_at, dev};
+use crate::common::{Job, at, deviation, filtered, line, peaks};
 use kontur_kit::{Random, environment};
+use kontur_motion::block::ContourSettings;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
-use kontur_motion::block::{Block, ContourSettings, Tolerance};
-use kontur_motion::contouring::Contouring;
-use kontur_motion::tolerance::Kernels;
-use std::sync::Arc;
 
 /// Setpoints of a contoured polygon, and the peaks of their differences.
-fn driven(job: &Job, settings: ContourSettings, points: &[&[f64]], feed: f64) -> (usize, f64, f64) {
-    let mut stage = Contouring::new(CycleTime::from_us(job.cycle_us).unwrap());
-    let kernels = Kernels::new(vec![job.kernel.clone().map(Arc::new); points[0].len()]);
-    let mut blocks = Vec::new();
-    for (i, w) in points.windows(2).enumerate() {
-        let block = job.block(i as u64, line(w[0], w[1]), feed);
-        blocks.extend(stage.push(Block { contour: Some(settings), ..block }, &kernels));
-    }
-    blocks.extend(stage.flush());
-    peaks(&job.run(points[0], blocks.into_iter()), job.cycle_us)
+fn driven(
+    job: &Job,
+    settings: ContourSettings,
+    points: &[[f64; 2]],
+    feed: f64,
+) -> (usize, f64, f64) {
+    let paths = points.windows(2).map(|ends| line(&ends[0], &ends[1]));
+    let (blocks, _) = contoured_at(feed, job, settings, paths);
+    peaks(&job.run(&points[0], blocks.into_iter()), job.cycle_us)
 }
 
-/// A larger tolerance never costs time where the speed is planned across block limits, and no axis is loaded beyond
-/// what the curve (`a`, `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together.
+/// No axis is loaded beyond what the curve (`a`, `a / tr_geom`) and the change of path speed (`a`, `a / t`) may use together, and a larger
+/// tolerance costs no time. Times of random contours: `contour_time`.
 #[test]
-fn a_larger_tolerance_costs_nothing() {
-    let shapes: [&[&[f64]]; 3] = [
-        &[&[0.0, 0.0], &[30.0, 0.0], &[30.0, 30.0], &[0.0, 30.0], &[0.0, 0.0]],
-        &[&[0.0, 0.0], &[20.0, 0.0], &[3.0, 5.0], &[25.0, 9.0], &[40.0, 3.0]],
-        &[&[0.0, 0.0], &[5.0, 1.0], &[10.0, 0.0], &[15.0, 3.0], &[15.0, 8.0], &[8.0, 12.0]],
+fn a_larger_tolerance_loads_no_axis_more() {
+    let shapes: [&[[f64; 2]]; 3] = [
+        &[[0.0, 0.0], [30.0, 0.0], [30.0, 30.0], [0.0, 30.0], [0.0, 0.0]],
+        &[[0.0, 0.0], [20.0, 0.0], [3.0, 5.0], [25.0, 9.0], [40.0, 3.0]],
+        &[[0.0, 0.0], [5.0, 1.0], [10.0, 0.0], [15.0, 3.0], [15.0, 8.0], [8.0, 12.0]],
     ];
     for kind in [Trapez, Sin2, Hsc, Step] {
         let step = kind == Step;
@@ -51,68 +45,25 @@ fn a_larger_tolerance_costs_nothing() {
     }
 }
 
-/// No corner is rounded.
-fn sharp() -> ContourSettings {
-    ContourSettings { max_angle_deg: 0.0, ..dev(1.0) }
-}
-
-/// The same over random zigzags: edges of 0.05 to 20 mm, any corner but a reversal, sharp and with tolerances over four
-/// decades, up to a cycle at every corner.
-#[test]
-fn a_larger_tolerance_costs_nothing_on_random_polygons() {
-    let mut random = Random::from_state(9);
-    let mut random = || random.ratio();
-    for program in 0..10 {
-        let (mut heading, mut at) = (0.0, [0.0, 0.0]);
-        let mut points = vec![at];
-        for _ in 0..25 {
-            let l = 0.05 * libm::pow(400.0, random());
-            let (sin, cos) = libm::sincos(heading);
-            at = [at[0] + l * cos, at[1] + l * sin];
-            points.push(at);
-            heading += 5.6 * (random() - 0.5);
-        }
-        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-        for kind in [Trapez, Hsc] {
-            let mut job = Job::new(1.0, kind);
-            job.slope.optimised = true;
-            // without contouring first
-            let mut last = driven(&job, sharp(), &views, 200.0).0;
-            for eps in [1e-4, 1e-3, 0.01, 0.1, 1.0] {
-                let now = driven(&job, dev(eps), &views, 200.0);
-                let most = last + points.len();
-                assert!(now.0 <= most, "{program} {kind:?} {eps}: {now:?} after {last}");
-                assert!(now.1 <= 2000.0 * (1.0 + 1e-6), "{program} {kind:?} {eps}: {now:?}");
-                last = now.0;
-            }
-        }
-    }
-}
-
 /// `AX_DEV` applies on curves as on arcs: the filtered setpoints stay within it of the contoured path.
 #[test]
 fn tolerance_monitoring_on_curves() {
-    let points: [&[f64]; 5] =
-        [&[0.0, 0.0], &[10.0, 0.0], &[10.0, 10.0], &[0.0, 10.0], &[0.0, 20.0]];
+    let points = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 20.0]];
     for kind in [Trapez, Hsc] {
-        let guard = VibGuardSettings { mode: 2, freq_hz: 20.0, damping: 0.05 };
-        let mut job = Job::new(1.0, kind);
-        job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
         let mut worst = [0.0; 2];
         for (tolerance, worst) in [None, Some(0.01)].into_iter().zip(&mut worst) {
-            job.tolerance = Tolerance { ax_dev_mm: tolerance, acc_fact: 1.0 };
-            let paths = points.windows(2).map(|w| line(w[0], w[1]));
+            let job = Job::new(1.0, kind).guarded(2, 20.0, 0.05, tolerance);
+            let paths = points.windows(2).map(|ends| line(&ends[0], &ends[1]));
             let (blocks, _) = contoured_at(1000.0, &job, dev(1.0), paths);
             let mut polygon = Vec::new();
             for b in &blocks {
                 let l = b.path.length();
                 polygon.extend((0..400).map(|k| at(&b.path, l * f64::from(k) / 400.0)));
             }
-            polygon.push(blocks[blocks.len() - 1].path.end().clone());
-            let views: Vec<&[f64]> = polygon.iter().map(|p| &p[..]).collect();
-            let out = job.run(points[0], blocks.into_iter());
-            let set = filtered(&out, job.kernel.as_ref().unwrap());
-            *worst = set.iter().step_by(5).map(|p| deviation(p, &views)).fold(0.0, f64::max);
+            polygon.push(blocks[blocks.len() - 1].path.end().to_vec());
+            let out = job.run(&points[0], blocks.into_iter());
+            let set = filtered(&out, &job.kernels);
+            *worst = set.iter().step_by(5).map(|p| deviation(p, &polygon)).fold(0.0, f64::max);
         }
         assert!(worst[0] > 0.02, "{kind:?}: the filter cuts the curves: {worst:?}");
         assert!(worst[1] <= 0.01 + 1e-4, "{kind:?}: {worst:?}");
@@ -144,17 +95,15 @@ fn rounding_costs_no_time_under_ax_dev() {
             }
             heading += turn;
         }
-        let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
         for (mode, freq_hz, ax_dev_mm) in [(2, 40.0, 0.01), (3, 20.0, 0.003), (1, 15.0, 0.02)] {
-            let guard = VibGuardSettings { mode, freq_hz, damping: 0.1 };
-            let mut job = Job::new(1.0, if program % 2 == 0 { Hsc } else { Trapez });
+            let job = Job::new(1.0, if program % 2 == 0 { Hsc } else { Trapez });
+            let mut job = job.guarded(mode, freq_hz, 0.1, Some(ax_dev_mm));
             job.slope.optimised = true;
-            job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
-            job.tolerance = Tolerance { ax_dev_mm: Some(ax_dev_mm), acc_fact: 1.0 };
-            let sharp = driven(&job, sharp(), &views, 60.0).0;
+            let sharp = ContourSettings { max_angle_deg: 0.0, ..dev(1.0) };
+            let sharp = driven(&job, sharp, &points, 60.0).0;
             for eps in [0.01, 0.1] {
                 let settings = ContourSettings { relevant_path_mm: 0.05, ..dev(eps) };
-                let round = driven(&job, settings, &views, 60.0).0;
+                let round = driven(&job, settings, &points, 60.0).0;
                 let most = sharp + sharp / 200 + 2;
                 assert!(round <= most, "{program} mode {mode} {eps}: {round} of {sharp} cycles");
             }

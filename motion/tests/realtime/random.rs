@@ -71,7 +71,7 @@ impl Case {
 
     pub(super) fn run(&self) -> Result<Vec<Setpoint>, Infeasible> {
         let block = |(i, w): (usize, &[[f64; 2]])| {
-            let mut b = line(&self.job, i as u64, &w[0], &w[1], self.feeds[i].unwrap_or(1.0));
+            let mut b = self.job.line(i as u64, &w[0], &w[1], self.feeds[i].unwrap_or(1.0));
             if self.feeds[i].is_none() {
                 b.feed = Feed::Rapid;
             }
@@ -85,7 +85,6 @@ impl Case {
     pub(super) fn check(&self, out: &[Setpoint]) -> Result<(), String> {
         let t = f64::from(self.job.cycle_us) * 1e-6;
         let kind: SlopeKind = self.job.slope.kind;
-        let points: Vec<&[f64]> = self.points.iter().map(|p| &p[..]).collect();
         let end = out.last().unwrap();
         let target = self.points.last().unwrap();
         if end.position[..] != target[..] || end.v_mm_s != 0.0 || end.a_mm_s2 != 0.0 {
@@ -131,7 +130,7 @@ impl Case {
             if p.v_mm_s < 0.0 {
                 return Err(format!("{k}: v {}", p.v_mm_s));
             }
-            let off = deviation(&p.position, &points);
+            let off = deviation(&p.position, &self.points);
             if off > 1e-9 {
                 return Err(format!("{k}: {off} off the contour"));
             }

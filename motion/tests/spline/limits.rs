@@ -2,6 +2,7 @@
 
 use super::*;
 use kontur_motion::block::Feed;
+use kontur_motion::tolerance::Kernels;
 
 /// Kinks of up to 3 degrees between edges of 0.3 to 30 mm.
 const LONG: Shape = (|u| 0.3 * libm::pow(100.0, u), |u| 0.1 * (u - 0.5));
@@ -30,9 +31,7 @@ fn misplaced(blocks: &[Block], points: &[Vec<f64>]) -> f64 {
         let mut least = f64::INFINITY;
         for block in pair.iter().flat_map(|blocks| blocks.iter()) {
             let length = block.path.length();
-            let distance = |s: f64| {
-                apart(&vector(&block.path, |p, v| p.position(s.clamp(0.0, length), v)), point)
-            };
+            let distance = |s: f64| apart(&at(&block.path, s.clamp(0.0, length)), point);
             // samples, and more around the best one
             let (mut best, mut step) = (0.5 * length, 0.5 * length / 200.0);
             for _ in 0..3 {
@@ -66,7 +65,7 @@ fn blocks_end_next_to_their_points() {
                 assert!(position < 1e-11 && tangent < 1e-9, "{seed}: {position} {tangent}");
                 for path in blocks.iter().map(|block| &block.path) {
                     let s = 1e-6 * path.length();
-                    let near = vector(path, |p, v| p.position(s, v));
+                    let near = at(path, s);
                     assert!(apart(path.start(), &near) < 1e-3, "{seed}: {:?}", path.start());
                 }
             }
@@ -82,15 +81,11 @@ fn a_programmed_duration_is_kept() {
         let points = doubled(&polygon(LONG, seed, 6), seed);
         let mut stage = Splining::new(CycleTime::DEFAULT);
         let mut out = Vec::new();
-        for (i, w) in points.windows(2).enumerate() {
-            let (from, to) = (AxisVec::from_slice(&w[0]), AxisVec::from_slice(&w[1]));
-            let path = Path::Line(LinePath::new(from, to, &job.dynamics.feed_axes).unwrap());
-            let spline = Some(SplineSettings::default());
-            let feed = Feed::Duration(1.0 + i as f64);
-            out.extend(stage.push(
-                Block { spline, feed, ..job.block(i as u64, path, 1.0) },
-                &Kernels::default(),
-            ));
+        for (ends, seq) in points.windows(2).zip(0..) {
+            let (spline, feed) =
+                (Some(SplineSettings::default()), Feed::Duration(1.0 + seq as f64));
+            let block = Block { spline, feed, ..job.line(seq, &ends[0], &ends[1], 1.0) };
+            out.extend(stage.push(block, &Kernels::default()));
         }
         out.extend(stage.flush(&Kernels::default()));
         for own in out.chunk_by(|a, b| a.seq == b.seq) {

@@ -1,8 +1,6 @@
 //! Corners of a spline under `AX_DEV`.
 
 use super::*;
-use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_motion::block::Tolerance;
 
 /// Straight lines in chords of 0.1 to 0.6 mm, with corners of 30 to 140 degrees between them.
 fn lines(seed: u64) -> Vec<Vec<f64>> {
@@ -23,19 +21,15 @@ fn lines(seed: u64) -> Vec<Vec<f64>> {
 }
 
 fn guarded(kind: SlopeKind, (mode, freq_hz): (u8, f64), ax_dev_mm: Option<f64>) -> Job {
-    let guard = VibGuardSettings { mode, freq_hz, damping: 0.1 };
-    let mut job = Job::new(1.0, kind);
+    let mut job = Job::new(1.0, kind).guarded(mode, freq_hz, 0.1, ax_dev_mm);
     job.slope.optimised = kind == Trapez;
-    job.kernel = Some(guard.kernel(CycleTime::DEFAULT).unwrap());
-    job.tolerance = Tolerance { ax_dev_mm, ..Tolerance::default() };
     job
 }
 
 /// The spline through these points takes no longer than the polygon, at whose corners the path may stop until the filters
 /// have settled.
 fn costs_no_time(name: &str, job: &Job, points: &[Vec<f64>], tolerances_mm: [f64; 2]) {
-    let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-    let sharp = job.drive(&views, &[50.0]).len();
+    let sharp = job.drive(points, &[50.0]).len();
     for path_dev_mm in tolerances_mm {
         let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
         let blocks = splined(job, settings, points, 50.0);

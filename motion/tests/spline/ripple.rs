@@ -96,8 +96,7 @@ fn ripple_on_a_circle_with_estimated_curvature() {
         job.slope.optimised = kind == Trapez;
         for (chord, feed) in [(0.05, 50.0), (0.1, 50.0), (0.2, 50.0), (0.05, 500.0), (0.1, 500.0)] {
             let points = circle(10.0, chord);
-            let views: Vec<&[f64]> = points.iter().map(|p| &p[..]).collect();
-            let r = ripple(&job.drive(&views, &[feed]));
+            let r = ripple(&job.drive(&points, &[feed]));
             println!("{kind:?} chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
             assert!(r < 0.01, "{kind:?} chord {chord} F {feed}: {r}");
         }

@@ -14,15 +14,6 @@ fn points(angles_deg: impl Iterator<Item = f64>) -> Vec<Vec<f64>> {
     angles_deg.enumerate().map(|(k, c)| vec![CHORD_MM * k as f64, 0.0, c]).collect()
 }
 
-fn polygon_cycles(job: &Job, points: &[Vec<f64>]) -> usize {
-    let line = |(i, w): (usize, &[Vec<f64>])| {
-        let [from, to] = [0, 1].map(|k| AxisVec::from_slice(&w[k]));
-        let path = LinePath::new(from, to, &job.dynamics.feed_axes).unwrap();
-        job.block(i as u64, Path::Line(path), 50.0)
-    };
-    job.run(&points[0], points.windows(2).enumerate().map(line)).len()
-}
-
 /// A step within one block and a change of speed, each between a hundred blocks at constant speed. To follow a step within
 /// 0.003 deg took 1.5 times as long as the polygon. Rounded within a `TRACK_DEV` that is large compared with it, both take
 /// less, and not more with a larger one; with a small one a step takes at most a twentieth more.
@@ -34,7 +25,7 @@ fn a_kink_is_rounded() {
             let step = points((0..=200).map(|k| if k > 100 { size } else { 0.0 }));
             let turn = points((0..=200).map(|k| 0.05 * size * f64::from((k - 100).max(0))));
             for points in [step, turn] {
-                let sharp = polygon_cycles(&job, &points);
+                let sharp = job.drive(&points, &[50.0]).len();
                 let mut last = usize::MAX;
                 for track_dev_deg in [0.5, 2.0, 5.0, 20.0] {
                     let settings = SplineSettings { track_dev_deg, ..SplineSettings::default() };
@@ -68,7 +59,7 @@ fn the_tolerance_is_kept_at_kinks() {
             let settings = SplineSettings { track_dev_deg, ..SplineSettings::default() };
             for b in splined(&job, settings, &points, 50.0) {
                 for k in 0..=8 {
-                    let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 8.0, v));
+                    let q = at(&b.path, b.path.length() * f64::from(k) / 8.0);
                     let i = ((q[0] / CHORD_MM).floor() as usize).min(points.len() - 2);
                     let share = q[0] / CHORD_MM - i as f64;
                     let want = points[i][2] + share * (points[i + 1][2] - points[i][2]);
@@ -117,7 +108,7 @@ fn the_tolerance_is_kept_at_kinks_on_arcs() {
             let settings = SplineSettings { track_dev_deg, ..SplineSettings::default() };
             for b in splined(&job, settings, &points, 50.0) {
                 for k in 0..=8 {
-                    let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 8.0, v));
+                    let q = at(&b.path, b.path.length() * f64::from(k) / 8.0);
                     let off = (q[2] - angle_at(&points, &q)).abs();
                     worst = worst.max(off / track_dev_deg);
                 }

@@ -1,16 +1,13 @@
 //! Chords of unequal length: the spline takes the time of the contour that they come from.
 
 use super::*;
-use kontur_motion::axis::{AxisDynamics, FeedSlope};
-use kontur_motion::path::{ArcPath, ArcShape};
+use crate::common::arc;
 
 const RADIUS_MM: f64 = 10.0;
 const FEED_MM_S: f64 = 100.0;
 
 fn machine() -> Job {
-    let feed = FeedSlope { acc_mm_s2: 3500.0, dec_mm_s2: 3500.0, ramps_s: [0.03; 4] };
-    let axis = AxisDynamics { a_max_mm_s2: 6000.0, feed, ..axis(1.0) };
-    Job { dynamics: channel(vec![axis; 2]), window: 1000, ..Job::new(1.0, Hsc) }
+    Job { window: 1000, ..fast(2) }
 }
 
 /// Points of a circle after these chords, rounded, without repetitions.
@@ -39,12 +36,11 @@ fn arc_cycles(job: &Job, points: &[Vec<f64>], parts: u16) -> usize {
     let at = |part: u16| {
         let (sin, cos) = libm::sincos(f64::from(part) * sweep_rad);
         let [x, y] = [points[0][0], points[0][1]];
-        AxisVec::from_slice(&[x * cos - y * sin, x * sin + y * cos])
+        [x * cos - y * sin, x * sin + y * cos]
     };
-    let shape = ArcShape { plane: [0, 1], centre_mm: [0.0, 0.0], sweep_rad };
     let blocks = (0..parts).map(|part| {
-        let arc = ArcPath::new(at(part), at(part + 1), shape, &[true, true]).unwrap();
-        job.block(u64::from(part), Path::Arc(arc), FEED_MM_S)
+        let arc = arc(&at(part), &at(part + 1), [0.0; 2], sweep_rad);
+        job.block(u64::from(part), arc, FEED_MM_S)
     });
     job.run(&points[0], blocks).len()
 }
@@ -56,10 +52,9 @@ fn is_as_the_arc(points: &[Vec<f64>], path_dev_mm: f64, what: &str) {
     // every block has its own part; its end may move along the path by 1 um
     for b in &blocks {
         let edge = &points[b.seq as usize..b.seq as usize + 2];
-        let views: Vec<&[f64]> = edge.iter().map(|p| &p[..]).collect();
         for k in 0..=8 {
-            let q = vector(&b.path, |p, v| p.position(p.length() * f64::from(k) / 8.0, v));
-            let off = deviation(&q, &views);
+            let q = at(&b.path, b.path.length() * f64::from(k) / 8.0);
+            let off = deviation(&q, edge);
             assert!(off <= path_dev_mm + 1e-3, "{what} {path_dev_mm} block {}: {off}", b.seq);
         }
     }
@@ -132,8 +127,8 @@ fn coarse_chords_of_a_small_arc_are_no_corners() {
         let arc = blocks.iter().filter(|b| (2..=5).contains(&b.seq));
         let bend = |b: &Block| {
             let at = |k: u32| b.path.length() * f64::from(k) / 8.0;
-            let of = |k| vector(&b.path, |p, v| p.curvature(at(k), v));
-            (0..=8).map(|k| apart(&of(k), &[0.0, 0.0])).fold(0.0, f64::max)
+            let of = |k| curvature(&b.path, at(k));
+            (0..=8).map(|k| norm(&of(k))).fold(0.0, f64::max)
         };
         let most = arc.map(bend).fold(0.0, f64::max) * radius;
         println!("radius {radius} turn {turn}: {most} times the curvature of the arc");
@@ -184,17 +179,16 @@ fn a_line_behind_an_arc_stays_straight() {
     assert!(sharp.is_empty());
     let last = blocks.iter().filter(|b| b.seq as usize + 2 == points.len());
     let line = &points[points.len() - 2..];
-    let views: Vec<&[f64]> = line.iter().map(|p| &p[..]).collect();
     let (mut straight, mut worst, mut most) = (0.0, 0.0_f64, 0.0_f64);
     for b in last {
         let l = b.path.length();
         for k in 0..=200 {
-            let at = l * f64::from(k) / 200.0;
-            let s = vector(&b.path, |p, v| p.position(at, v));
+            let along = l * f64::from(k) / 200.0;
+            let s = at(&b.path, along);
             if apart(&s, &line[0]) > 6.0 {
-                worst = worst.max(deviation(&s, &views));
-                let bend = vector(&b.path, |p, v| p.curvature(at, v));
-                most = most.max(apart(&bend, &[0.0, 0.0]));
+                worst = worst.max(deviation(&s, line));
+                let bend = curvature(&b.path, along);
+                most = most.max(norm(&bend));
                 straight += l / 200.0;
             }
         }

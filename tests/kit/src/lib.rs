@@ -1,11 +1,13 @@
-//! A kit for all tests: random numbers, a comparison, tables of programs, and a mass on a spring integrated in small steps. It depends on
-//! none of the crates under test.
+//! A kit for all tests: random numbers, a comparison, tables of programs, distances from polylines, and a mass on a spring integrated in
+//! small steps. It depends on none of the crates under test.
 
 mod oscillator;
+mod polyline;
 mod random;
 pub mod rows;
 
 pub use oscillator::Oscillator;
+pub use polyline::{from_polyline, largest};
 pub use random::{Random, count, environment, seed};
 
 /// The pieces of a text, separated by ` ¦ ` or ends of lines.

@@ -127,16 +127,3 @@ fn shards_together_are_the_sweep() {
     let picture = folder.path("a.svg");
     assert_eq!(with(&["--shard", "1/2", "-o", &picture]).exit, Exit::Usage);
 }
-
-/// A job in which every run ends with an error is nevertheless finished.
-#[test]
-fn a_shard_of_aborted_runs_is_finished() {
-    let folder = Folder::new(&[("part.nc", "G01 X[V.E.A] F1000\nM30\n")]);
-    let part = folder.path("part.nc");
-    let words = ["sweep", &part, "--vary", "V.E.A=1,2,70000,80000", "--columns", "duration_s"];
-    let second = command([&words[..], &["--shard", "2/2"]].concat());
-    assert_eq!(second.exit, Exit::Finished, "{}", second.err);
-    assert_eq!(second.out.matches(",aborted,").count(), 2, "{}", second.out);
-    let whole = command(["sweep", &part, "--vary", "V.E.A=70000,80000"]);
-    assert_eq!(whole.exit, Exit::Aborted);
-}

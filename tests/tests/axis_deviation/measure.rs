@@ -1,8 +1,9 @@
 //! What a run has left of the contour, by the geometry of this package.
 
 use kontur_interpreter::record::{AxisRecord, CycleRecord};
+use kontur_kit::from_polyline;
+use kontur_tests::Run;
 use kontur_tests::geometry::{Piece, Point, deviation, minus, norm};
-use kontur_tests::{Run, from_polyline};
 
 /// Parts of a piece of the contour whose ends are looked for on the set path.
 const POINTS: u32 = 12;

@@ -3,8 +3,8 @@
 
 use kontur_interpreter::diag::Condition;
 use kontur_interpreter::record::AxisRecord;
-use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, from_polyline, run, there_and_back};
+use kontur_kit::{Random, count, from_polyline, largest, seed};
+use kontur_tests::{Run, run, there_and_back};
 
 /// Largest acceleration of the built-in machine in mm/s2: between two setpoints the spline bulges out by `a T^2 / 8` at most.
 const ACC_MM_S2: f64 = 6000.0;
@@ -22,7 +22,7 @@ fn points(r: &mut Random) -> Vec<[f64; 2]> {
 fn furthest(points: &[Vec<f64>], lines: &[Vec<f64>], before: usize, behind: usize) -> f64 {
     let from = |k: usize| {
         let part = &lines[k.saturating_sub(before)..(k + behind + 1).min(lines.len())];
-        from_polyline(&points[k], part).iter().fold(0.0, |m: f64, c| m.max(c.abs()))
+        largest(&from_polyline(&points[k], part))
     };
     let every = 1 + points.len() / 500;
     (0..points.len()).step_by(every).map(from).fold(0.0, f64::max)

@@ -128,39 +128,46 @@ pub(super) fn decays(
     found.into_iter().map(|p| p.1).collect()
 }
 
-/// Free decays of one part, with their energies: from a blow to the next one.
-fn decays_of_part(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<(f64, Range<usize>)> {
-    let mut clean = without_drift(samples);
-    without_hum(&mut clean, rate_hz);
-    let n = clean.len();
-    // a short vibration disappears in the noise of a long recording, which is then searched piece by piece
-    let part = ((PART_S * rate_hz) as usize).clamp(LEAST_SAMPLES, n);
-    let parts = || (0..=n - part).step_by((part / 2).max(1)).map(|i| &clean[i..i + part]);
-    let loudest =
-        |samples: &[f64]| detect::strongest(samples, &vec![true; samples.len()], rate_hz, range_hz);
-    let loudest = loudest(&clean).or_else(|| parts().find_map(loudest));
-    let Some(loudest) = loudest else { return vec![(clean.iter().map(|x| x * x).sum(), 0..n)] };
-    let period = (rate_hz / loudest.freq_hz).max(1.0);
-    let window = ((4.0 * period).max(WINDOW_S * rate_hz) as usize).clamp(1, (n / 4).max(1));
-    let mut sums = vec![0.0; n + 1];
-    for (i, x) in clean.iter().enumerate() {
-        sums[i + 1] = sums[i] + x * x;
+/// Energies of ranges of samples.
+struct Energy {
+    /// Of all samples before each one.
+    sums: Vec<f64>,
+}
+
+impl Energy {
+    fn of(samples: &[f64]) -> Self {
+        let mut sums = vec![0.0; samples.len() + 1];
+        for (i, x) in samples.iter().enumerate() {
+            sums[i + 1] = sums[i] + x * x;
+        }
+        Self { sums }
     }
-    // mean residual power of the samples in a range
-    let power = |from: usize, to: usize| (sums[to] - sums[from]) / (to - from).max(1) as f64;
-    let after = |i: usize| power(i, (i + window).min(n));
+
+    fn between(&self, from: usize, to: usize) -> f64 {
+        self.sums[to] - self.sums[from]
+    }
+
+    /// Mean over the samples of a range.
+    fn power(&self, from: usize, to: usize) -> f64 {
+        self.between(from, to) / (to - from).max(1) as f64
+    }
+}
+
+/// Samples at which blows begin, at least one: the energy of the window after them is higher than before, and the period of `one`
+/// samples that begins there has more than any other nearby.
+fn blows(energy: &Energy, window: usize, one: usize) -> Vec<usize> {
+    let n = energy.sums.len() - 1;
+    let after = |i: usize| energy.power(i, (i + window).min(n));
     let quiet = (0..n - window).step_by((window / 2).max(1)).map(after).fold(f64::MAX, f64::min);
     // a recording that begins with its vibration has nothing before it
     let before = |i: usize| {
         let seen = i.min(window);
         let unseen = (window - seen) as f64 * quiet;
-        (unseen + seen as f64 * power(i - seen, i)) / window as f64
+        (unseen + seen as f64 * energy.power(i - seen, i)) / window as f64
     };
     let rise = |i: usize| after(i) / (before(i) + f64::MIN_POSITIVE);
     let loud = (0..n - window).map(after).fold(0.0, f64::max);
-    // the period that begins with the blow has more energy than any other; the long windows only show that there is one
-    let one = (period as usize).max(1);
-    let front = |i: usize| power(i, (i + one).min(n));
+    let front = |i: usize| energy.power(i, (i + one).min(n));
     let last = n - LEAST_SAMPLES.min(n);
     let mut starts: Vec<usize> = Vec::new();
     let mut i = 0;
@@ -177,6 +184,26 @@ fn decays_of_part(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<(f
         let top = (0..last).reduce(|a, b| if front(b) > front(a) { b } else { a });
         starts.push(top.unwrap_or(0));
     }
+    starts
+}
+
+/// Free decays of one part, with their energies: from a blow to the next one.
+fn decays_of_part(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<(f64, Range<usize>)> {
+    let mut clean = without_drift(samples);
+    without_hum(&mut clean, rate_hz);
+    let n = clean.len();
+    // a short vibration disappears in the noise of a long recording, which is then searched piece by piece
+    let part = ((PART_S * rate_hz) as usize).clamp(LEAST_SAMPLES, n);
+    let parts = || (0..=n - part).step_by((part / 2).max(1)).map(|i| &clean[i..i + part]);
+    let loudest =
+        |samples: &[f64]| detect::strongest(samples, &vec![true; samples.len()], rate_hz, range_hz);
+    let loudest = loudest(&clean).or_else(|| parts().find_map(loudest));
+    let Some(loudest) = loudest else { return vec![(clean.iter().map(|x| x * x).sum(), 0..n)] };
+    let period = (rate_hz / loudest.freq_hz).max(1.0);
+    let window = ((4.0 * period).max(WINDOW_S * rate_hz) as usize).clamp(1, (n / 4).max(1));
+    let energy = Energy::of(&clean);
+    let one = (period as usize).max(1);
+    let starts = blows(&energy, window, one);
     let ends: Vec<usize> = starts.iter().skip(1).copied().chain([n]).collect();
     starts
         .iter()
@@ -188,7 +215,7 @@ fn decays_of_part(samples: &[f64], rate_hz: f64, range_hz: (f64, f64)) -> Vec<(f
             // the steep front of the next blow begins slightly before its energy rises
             let end =
                 if end < n { end.saturating_sub((0.05 * window as f64) as usize) } else { end };
-            (end > top + LEAST_SAMPLES).then(|| (sums[end] - sums[top], top + 1..end))
+            (end > top + LEAST_SAMPLES).then(|| (energy.between(top, end), top + 1..end))
         })
         .collect()
 }
