@@ -249,7 +249,7 @@ fn chords(r: &mut Random) -> Vec<Path> {
         at = [at[0] + l * cos, at[1] + l * sin];
         points.push([at[0] + r.between(-noise, noise), at[1] + r.between(-noise, noise)]);
     }
-    points.windows(2).filter(|w| w[0] != w[1]).map(|w| line(&w[0], &w[1])).collect()
+    points.windows(2).filter(|w| w[0].iter().ne(&w[1])).map(|w| line(&w[0], &w[1])).collect()
 }
 
 /// A contour with rounded corners takes no longer than the sharp one, for any feed rates of its blocks, also with a

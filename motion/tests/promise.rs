@@ -91,7 +91,8 @@ pub(crate) fn both_ways<P: AsRef<[f64]>, Q: AsRef<[f64]>>(
             left += 1;
         }
         // share of the block that the path has covered, in the cycles in which it is on the block or rests at one end
-        let square = apart(from, to).powi(2);
+        let distance = apart(from, to);
+        let square = distance * distance;
         let share = |k: usize| {
             let on = path[k].as_ref().iter().zip(from).zip(to);
             on.map(|((p, a), b)| (p - a) * (b - a)).sum::<f64>() / square

@@ -98,7 +98,7 @@ fn a_feedhold_brakes_gently_where_filters_pull_the_axes_apart() {
     let kernels = vec![Kernel::from_taps([tap(0, 0.5), tap(20, 0.5)]).unwrap(), Kernel::delay(8)];
     let tolerance_mm = 0.05;
     let tolerance = Tolerance { ax_dev_mm: Some(tolerance_mm), ..Tolerance::default() };
-    let job = Job { kernels, tolerance, ..Job::new(0.0, Step) };
+    let job = Job { tolerance, kernels, ..Job::new(0.0, Step) };
     for hold in (400_u64..420).step_by(3) {
         let block = job.line(0, &[0.0, 0.0], &[60.0, 80.0], 100.0);
         let events = [(hold, Event::Hold(Own)), (hold + 700, Event::Release)];
