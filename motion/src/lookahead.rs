@@ -263,7 +263,9 @@ impl Window<'_> {
                 gentle && self.part(s, from, to).is_faster_with_knots(&steps, ride.duration());
             (!slower).then_some(ride)
         };
-        let ridden = (worst.is_some() || s.is_uneven(blocks, profile.peak()))
+        // the stop at the end of the look-ahead is planned again with the blocks that follow
+        let rows = s.end < blocks.len() || self.end.why != SpeedLimit::Lookahead;
+        let ridden = (worst.is_some() || s.is_uneven(blocks, profile.peak(), rows))
             .then(|| cells(blocks, feeds, caps, s.first, s.end))
             .flatten()
             .and_then(along);

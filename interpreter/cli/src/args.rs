@@ -50,7 +50,7 @@ pub enum Command {
     Run(RunArgs),
     /// Parse and decode programs without motion; shows all diagnostics, up to 20 errors.
     Check(CheckArgs),
-    /// Compare two traces, or a trace and a fresh run; exit code 1 if they differ.
+    /// Compare two traces, or a trace and a fresh run; exit code 1 if they differ, or if the run ends with an error.
     Diff(DiffArgs),
     /// Run programs and write one self-contained page (.html) or picture (.svg).
     Report(ReportArgs),

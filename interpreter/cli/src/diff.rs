@@ -51,10 +51,15 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
     let names = [args.a.display().to_string(), args.b.display().to_string()];
     if !args.map.is_empty() {
         let mut a = open(&args.a, is_a, Some(&recording::columns(&args.map)))?;
-        let outcome = recording::compare(&mut a, &args.b, &args.map, args.rate, args.tolerance)?;
+        let outcome = recording::compare(&mut a, &args.b, &args.map, args.rate, args.tolerance);
         for message in a.take_messages() {
             console.announce(&message);
         }
+        if outcome.is_err() && a.has_failed() {
+            // the reason is among the messages
+            return Ok(Exit::Aborted);
+        }
+        let outcome = outcome?;
         let aborted = failed(&names, [a.has_failed(), false]);
         let program = (!is_a).then_some(args.a.as_path());
         let verdict = || recording::verdict(&outcome, program);

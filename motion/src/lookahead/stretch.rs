@@ -135,8 +135,9 @@ impl Stretch<'_> {
         self.slope.reach_up(settled.max(0.0), (self.length - length).max(0.0))
     }
 
-    /// Whether consecutive blocks permit more than all of them together and are long enough at this speed to use it.
-    pub(super) fn is_uneven(&self, blocks: &[Outline], v: f64) -> bool {
+    /// Whether consecutive blocks permit more than all of them together and are long enough at this speed to use it;
+    /// without `rows` only blocks with the same limits, such as the parts of a line.
+    pub(super) fn is_uneven(&self, blocks: &[Outline], v: f64, rows: bool) -> bool {
         let mut run: Option<(f64, Rates)> = None;
         blocks[self.first..self.end].iter().any(|block| {
             if block.queued.slope.nearly_equals(&self.slope, UNEVEN) {
@@ -145,8 +146,10 @@ impl Stretch<'_> {
             }
             let Some(own) = rates(&block.queued) else { return false };
             let (length, weakest) = match &run {
-                Some((length, rates)) => (length + block.length, rates.weaker(&own)),
-                None => (block.length, own),
+                Some((length, rates)) if rows || block.same_rates() => {
+                    (length + block.length, rates.weaker(&own))
+                }
+                _ => (block.length, own),
             };
             let uses = has_hill(length, v, &weakest);
             run = Some((length, weakest));

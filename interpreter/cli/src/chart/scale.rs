@@ -70,9 +70,17 @@ pub fn ticks((low, high): (f64, f64), wanted: f64) -> Vec<(f64, String)> {
 
 /// A number on a scale: with more than five decimals as multiple of a power of ten, for which there is room.
 fn text(v: f64, decimals: usize) -> String {
-    let text = match decimals {
-        0..=5 => format!("{v:.decimals$}"),
-        _ => format!("{:.0}e-{decimals}", v * libm::pow(10.0, decimals as f64)),
+    let text = if decimals <= 5 {
+        format!("{v:.decimals$}")
+    } else {
+        let digits = format!("{:.0}", v * libm::pow(10.0, decimals as f64));
+        let short = digits.trim_end_matches('0');
+        match decimals.checked_sub(digits.len() - short.len()) {
+            Some(exponent @ 1..) if short.ends_with(|c: char| c.is_ascii_digit()) => {
+                format!("{short}e-{exponent}")
+            }
+            _ => format!("{digits}e-{decimals}"),
+        }
     };
     if text.starts_with("0e")
         || text.starts_with("-0e")
@@ -214,6 +222,10 @@ mod tests {
         assert_eq!(texts((0.0, 1.0), 5.0), ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(texts((-0.013, 0.021), 4.0), ["\u{2212}0.01", "0", "0.01", "0.02"]);
         assert_eq!(texts((-5e-7, 5e-7), 2.0), ["\u{2212}5e\u{2212}7", "0", "5e\u{2212}7"]);
+        assert_eq!(texts((0.0, 2e-6), 2.0), ["0", "1e\u{2212}6", "2e\u{2212}6"]);
+        assert_eq!(text(-1e-9, 7), "0");
+        assert_eq!(text(10.0, 6), "10000000e\u{2212}6");
+        assert_eq!(text(1e-6, 7), "1e\u{2212}6");
         // a single number does not make a scale
         assert_eq!(texts((0.1, 0.9), 2.0), ["0.2", "0.4", "0.6", "0.8"]);
         assert!(ticks((1.0, 1.0), 4.0).is_empty());

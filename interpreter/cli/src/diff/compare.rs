@@ -260,11 +260,15 @@ struct Excess {
     size: Option<f64>,
 }
 
-/// Whether two cells of the column `file` name the same file: the folder depends on where a program was started.
+/// Whether two cells of the column `file` name the same file: how its folder is written depends on where a program was
+/// started, so the shorter path has to be the end of the longer one.
 fn same_file(a: &[u8], b: &[u8]) -> bool {
-    let name =
-        |cell: &[u8]| cell.rsplit(|byte| matches!(byte, b'/' | b'\\')).next().map(<[u8]>::to_vec);
-    name(a) == name(b)
+    let parts = |cell: &[u8]| -> Vec<Vec<u8>> {
+        let parts = cell.split(|byte| matches!(byte, b'/' | b'\\'));
+        parts.filter(|part| !matches!(*part, b"" | b"." | b"..")).map(<[u8]>::to_vec).collect()
+    };
+    let (a, b) = (parts(a), parts(b));
+    !a.is_empty() && !b.is_empty() && (a.ends_with(&b) || b.ends_with(&a))
 }
 
 /// `None` if two cells are equal within the tolerance.

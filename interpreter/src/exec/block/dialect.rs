@@ -113,6 +113,8 @@ impl Seen {
 
     /// Words with another meaning in other dialects: reported once per program and word.
     pub(super) fn guard(&mut self, words: &Words<'_>, report: &mut Report) {
+        let mirrors =
+            self.unit_or_mirror || words.g.iter().any(|g| matches!(g.row.number, 70 | 71));
         for g in &words.g {
             match g.row.number {
                 22 | 23 | 70 | 71 | 351 => self.unit_or_mirror = true,
@@ -127,7 +129,7 @@ impl Seen {
             }
         }
         if !self.own {
-            for (subject, text, span) in beside_others(words) {
+            for (subject, text, span) in beside_others(words, mirrors) {
                 report.note_once(subject, Fault::new(Condition::Dialect, text, span));
             }
         }
@@ -159,10 +161,13 @@ impl Seen {
 
 /// Words that mean something else beside the other words of their block, as programs of other controls have them:
 /// `G23 G40` (stored limits), `G98 R2` (where a drilling cycle returns to) and `M29 S1000` (rigid tapping).
+///
+/// `mirrors`: G70, G71 or mirroring has shown that G22 and G23 are meant as they are here.
 fn beside_others<'w>(
     words: &'w Words<'_>,
+    mirrors: bool,
 ) -> impl Iterator<Item = (Subject, &'static str, Span)> + 'w {
-    let cancels = words.g.iter().any(|g| matches!(g.row.number, 40 | 80));
+    let cancels = !mirrors && words.g.iter().any(|g| matches!(g.row.number, 40 | 80));
     let of_g = words.g.iter().filter_map(move |g| {
         let number = g.row.number;
         let text = match number {
@@ -175,7 +180,9 @@ fn beside_others<'w>(
         };
         Some((Subject::G(number), text, g.span))
     });
-    let tapping = words.m.iter().filter(|m| m.number == 29 && !words.speeds.is_empty());
+    let turns = words.speeds.iter().any(|(_, speed, _)| *speed > 0.0);
+    let turns = turns && !words.m.iter().any(|m| m.number == 5);
+    let tapping = words.m.iter().filter(move |m| m.number == 29 && turns);
     let text = "M29 ends a program in this dialect; G63 and G331 tap";
     of_g.chain(tapping.map(move |m| (Subject::M(29), text, m.span)))
 }

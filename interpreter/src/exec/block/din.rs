@@ -209,7 +209,13 @@ impl Decoder {
 
     /// Executes what precedes the functions and the motion of a block.
     fn settings(&mut self, words: &mut Words<'_>) -> Settings {
+        let plane = self.modal.plane;
         self.modal.planes_and_units(words, &mut self.geometry, &mut self.report);
+        if let Some(g) = words.group(Group::Plane).filter(|_| self.modal.plane != plane) {
+            let (motion, geometry) = (&self.motion, &self.geometry);
+            let worn = motion.apply_wear(geometry, &self.modal, &mut self.contour, g.span);
+            self.report.keep(worn);
+        }
         let takes_axes = axis_functions(words, &mut self.report);
         let at_once = self.machine.channel.offsets.tools_at_once;
         let tool_before = at_once.then(|| self.geometry.coordinates.tool().clone());
@@ -249,15 +255,9 @@ impl Decoder {
             let outcome = self.modal.program_feed(feed, &mut self.report);
             self.report.keep(outcome);
         }
-        let plane = self.modal.plane;
         for g in &words.g {
             let outcome = self.mode(g, words);
             self.report.keep(outcome);
-        }
-        if let Some(g) = words.group(Group::Plane).filter(|_| self.modal.plane != plane) {
-            let (motion, geometry) = (&self.motion, &self.geometry);
-            let worn = motion.apply_wear(geometry, &self.modal, &mut self.contour, g.span);
-            self.report.keep(worn);
         }
         if let Some(g) = takes_axes {
             let outcome = match g.row.act {

@@ -39,7 +39,7 @@ impl Geometry {
         let outcome = self.switch_scaling(switch, words, machine, names, at);
         report.keep(outcome);
         if switch == Some(true) && words.axes.is_empty() && self.scale.is_one() {
-            let text = "#SCALE ON has no effect: no factors have been given";
+            let text = "#SCALE ON has no effect: all factors are 1";
             report.note(Fault::new(Condition::Odd, text, at).hint("#SCALE ON X2 Y2"));
         }
         true

@@ -60,6 +60,7 @@ impl Builder<'_> {
         } else {
             None
         };
+        let of_system = of(&["CS", "CS DEF", "CS ADD", "CS SET"]);
         let commas = pair.clone().into_inner().filter(|p| p.as_rule() == Rule::comma).count();
         let mut group = self.group(pair);
         let inside =
@@ -67,6 +68,9 @@ impl Builder<'_> {
         if of(&["MSG"]) && inside.ends_with(',') {
             let span = Span { start: group.span.end() - 1, len: 0 };
             group.items.push(Item { kind: ItemKind::Missing, span });
+        }
+        if of_system {
+            self.subtracted(&group);
         }
         // `[X 1 0]` looks like a key with its value: 21251, when the command is carried out
         let keyed = matches!(group.items.first(), Some(Item { kind: ItemKind::Pair { .. }, .. }));
@@ -279,8 +283,10 @@ impl Builder<'_> {
         declaration
     }
 
-    /// 20904 where no comma separates two values of an array: a negative one would be subtracted from the one before it.
+    /// 20904 where no comma separates two values of an array, and a warning where the comma before a negative one may be
+    /// missing, which is then subtracted from the value before it.
     fn separated_values(&mut self, group: &Group) {
+        self.subtracted(group);
         let joined = group.items.windows(2).find_map(|pair| {
             let (end, start) = (pair[0].span.end(), pair[1].span.start);
             (!self.masked.get(end as usize..start as usize)?.contains(',')).then_some(pair[1].span)
@@ -288,6 +294,29 @@ impl Builder<'_> {
         if let Some(at) = joined {
             let text = "a comma is missing between two values of an array";
             self.report(Problem::new(Condition::DeclarationCharacter, at, text));
+        }
+    }
+
+    /// K-0109 for `[10 -2]`: a sign with a blank before it and none behind it, as before the next value of a list.
+    fn subtracted(&mut self, group: &Group) {
+        let start = group.span.start as usize;
+        let text = self.masked.get(start..group.span.end() as usize).unwrap_or_default();
+        let is_value =
+            |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b']' | b'_');
+        let bytes = text.as_bytes();
+        let found = (1..bytes.len().saturating_sub(1)).find(|i| {
+            let before = text[..*i].trim_ascii_end().bytes().next_back();
+            matches!(bytes[*i], b'+' | b'-')
+                && matches!(bytes[i - 1], b' ' | b'\t')
+                && is_value(bytes[i + 1])
+                && before.is_some_and(is_value)
+        });
+        if let Some(at) = found {
+            let text = "two values are added or subtracted here: a comma may be missing";
+            let at = Span::new(start + at, start + at + 1);
+            let hint = "write [10, -2] for two values, [10 - 2] for one";
+            let problem = Problem::new(Condition::Odd, at, text).severity(Severity::Warning);
+            self.report(problem.hint(hint));
         }
     }
 

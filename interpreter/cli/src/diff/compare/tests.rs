@@ -162,6 +162,8 @@ fn files_are_compared_by_their_names() {
     for (a, b, equal) in [
         ("nc/part.nc", "./nc/part.nc", true),
         ("nc/part.nc", "C:\\work\\nc\\part.nc", true),
+        ("sub/s.nc", "../work/sub/s.nc", true),
+        ("sub/a.nc", "lib/a.nc", false),
         ("part.nc", "other_part.nc", false),
         ("part.nc", "", false),
     ] {

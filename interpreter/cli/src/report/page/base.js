@@ -83,7 +83,7 @@ function ticks(low, high, wanted) {
   }
 }
 function tickText(v, decimals) {
-  const text = decimals > 5 ? `${Math.round(v * 10 ** decimals)}e-${decimals}` : v.toFixed(decimals);
+  const text = decimals > 5 ? `${Math.round(v * 10 ** decimals)}e-${decimals}`.replace(/([1-9])(0+)e-(.*)/, (all, digit, zeros, d) => d > zeros.length ? `${digit}e-${d - zeros.length}` : all) : v.toFixed(decimals);
   return /^(-?0e|[-0.]*$)/.test(text) ? "0" : text.replace(/-/g, "\u2212");
 }
 // grid with numbers, and what they count beside both axes
@@ -94,7 +94,8 @@ function grid(c, box, x, y, xName, yName) {
   for (const [v, text] of ticks(x[0], x[1], w / 90)) {
     const at = x0 + (v - x[0]) / (x[1] - x[0]) * w;
     c.beginPath(); c.moveTo(at, y0); c.lineTo(at, y0 + h); c.stroke();
-    c.fillText(text, at, y0 + h + 4);
+    // the last number stays inside the picture
+    c.fillText(text, Math.min(at, x0 + w - c.measureText(text).width / 2 + 6), y0 + h + 4);
   }
   c.fillText(xName, x0 + w / 2, y0 + h + 18);
   c.textAlign = "right"; c.textBaseline = "middle";

@@ -5,7 +5,7 @@ macro_rules! own {
     ([$next:ident $($more:ident)*] $($rows:tt)*) => {
         $next! { [$($more)*] $($rows)*
     InvalidCharacter = Kontur 1 "K-CHAR": Error ProgramAbort 3 0, "invalid character", hint "characters outside the dialect are only allowed in comments and strings";
-    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "syntax error in a block", hint "kontur explain shows how a word, a function or a command is written: kontur explain G02", note "a warning for a remark that looks like keys, a note for a command continued by `\\`";
+    Syntax = Kontur 2 "K-SYNTAX": Error ProgramAbort 3 0, "syntax error in a block", hint "kontur explain shows how a word, a function or a command is written: kontur explain G02", note "a note for a command continued by `\\`";
     NoEnd = Kontur 3 "K-NOEND": Warning None 1 0, "no M02/M30/M29 before the end of the file", hint "write M30";
     TextBehindEnd = Kontur 4 "K-TRAILING": Note None 1 0, "text after the end of the program", cause "M30, M02 or M17, then more blocks", hint "move the end-of-program word to the end of the file, or delete the text after it", note "an error for a program that never runs, because blocks before the first % are the main program";
     Nesting = Kontur 6 "K-NESTING": Error ProgramAbort 3 0, "calls or control structures nested too deeply", hint "check whether a subroutine calls itself; assign part of a long expression to a parameter";
@@ -19,7 +19,7 @@ macro_rules! own {
     NoSubroutine = Kontur 14 "K-NOSUB": Error ProgramAbort 3 0, "subroutine not found", hint "begin a local subroutine with %L NAME";
     Label = Kontur 15 "K-LABEL": Error ProgramAbort 3 0, "jump label not found", hint "write labels as N50: or [NAME] at the beginning of a block of the same program";
     LabelInto = Kontur 16 "K-LABEL-INTO": Error ProgramAbort 3 0, "jump into a control block", hint "jump only out of a control block, not into one";
-    Endless = Kontur 17 "K-ENDLESS": Error ProgramAbort 3 0, "iteration limit reached", hint "check whether the end condition can become true", note "a warning for a program that takes longer than --max-time";
+    Endless = Kontur 17 "K-ENDLESS": Error ProgramAbort 3 0, "iteration limit reached", hint "check whether the end condition can become true", note "a warning of check for a program that takes longer than --max-time";
     Wait = Kontur 18 "K-WAIT": Warning None 1 0, "wait condition that the simulation cannot fulfil", hint "nothing outside the program is simulated", note "an error, which ends the program, for a condition of #WAIT FOR that is false";
     Unsupported = Kontur 19 "K-UNSUPPORTED": Error ProgramAbort 3 0, "valid command that is not simulated", hint "the result would be wrong without it: write the program for the simulation without it", note "a warning for what is configured in the lists and is not used";
     FeedforwardLimit = Kontur 20 "K-G136-LIMIT": Warning None 1 0, "weight above 100 %, limited", hint "write 100 % or less; 100 % feeds the whole value forward";
