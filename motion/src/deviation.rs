@@ -11,7 +11,8 @@
 //! ```
 //!
 //! (a) Every point of the *set path* (the filtered set points joined by straight lines) has a nearest point on the
-//! contour that was interpolated within the reach of the filter.
+//! contour that was interpolated within the reach of the filter; a block of which any part was counts in its whole
+//! length.
 //! (b) Every point of the contour has a nearest point on the set path of those cycles in which the filter still holds
 //! it. This covers the tips of reversals, acute corners and whole detours that a set path misses without ever being far
 //! from some other part of the contour.

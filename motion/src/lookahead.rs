@@ -264,8 +264,12 @@ impl Window<'_> {
             (!slower).then_some(ride)
         };
         // the stop at the end of the look-ahead is planned again with the blocks that follow
-        let rows = s.end < blocks.len() || self.end.why != SpeedLimit::Lookahead;
-        let ridden = (worst.is_some() || s.is_uneven(blocks, profile.peak(), rows))
+        let is_final = s.end < blocks.len() || self.end.why != SpeedLimit::Lookahead;
+        let uneven = || {
+            let peak = profile.peak();
+            s.is_uneven(blocks, peak) || is_final && s.has_strong_row(blocks, peak)
+        };
+        let ridden = (worst.is_some() || uneven())
             .then(|| cells(blocks, feeds, caps, s.first, s.end))
             .flatten()
             .and_then(along);

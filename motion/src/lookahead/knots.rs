@@ -117,13 +117,9 @@ impl Window<'_> {
         for i in 1..blocks.len() {
             let (a, b) = (&blocks[i - 1], &blocks[i]);
             let drops = is_above(self.entries[i].v_mm_s, feeds[i].v_mm_s);
-            // ramp times that a block keeps are its own; they differ where they are weighted (G132 to G134) and at G00
-            let [before, behind] = [a, b].map(|block| block.queued.slope.constant_ramps_s());
-            let same_ramps = (before - behind).abs() <= NEARLY_EQUAL * before.max(behind);
             let joined = self.carried[i]
                 || !self.forced[i]
                     && b.same_slope()
-                    && same_ramps
                     && if a.plans_across && !plain[i - 1] {
                         caps[i].v_mm_s > 0.0 && !drops
                     } else {

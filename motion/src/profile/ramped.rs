@@ -41,6 +41,14 @@ impl Rates {
             ramps: std::array::from_fn(ramp),
         }
     }
+
+    /// Whether accelerations and ramp times differ by at most the given ratio.
+    pub(crate) fn nearly_equals(&self, other: &Self, ratio: f64) -> bool {
+        let near = |x: f64, y: f64| (x - y).abs() <= ratio * x.max(y);
+        near(self.acc, other.acc)
+            && near(self.dec, other.dec)
+            && self.ramps.iter().zip(&other.ramps).all(|(x, y)| near(*x, *y))
+    }
 }
 
 impl RampedLimits {
