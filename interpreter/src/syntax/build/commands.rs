@@ -70,7 +70,7 @@ impl Builder<'_> {
             group.items.push(Item { kind: ItemKind::Missing, span });
         }
         if of_system {
-            self.subtracted(&group);
+            self.subtracted(group.span);
         }
         // `[X 1 0]` looks like a key with its value: 21251, when the command is carried out
         let keyed = matches!(group.items.first(), Some(Item { kind: ItemKind::Pair { .. }, .. }));
@@ -273,7 +273,15 @@ impl Builder<'_> {
                 Rule::place => declaration.place = self.place(part),
                 Rule::type_name => declaration.type_name = Some(self.upper(&part)),
                 Rule::index => declaration.length = Some(self.index(part)),
-                Rule::value => declaration.value = Some(self.item_value(part)),
+                Rule::value => {
+                    let list = self.span(&part);
+                    declaration.value = Some(self.item_value(part));
+                    // the bracket of a single value is one around an expression
+                    let is_array = self.written(declaration.place.span).contains('[');
+                    if is_array && self.written(list).starts_with('[') {
+                        self.subtracted(list);
+                    }
+                }
                 _ => {}
             }
         }
@@ -283,10 +291,8 @@ impl Builder<'_> {
         declaration
     }
 
-    /// 20904 where no comma separates two values of an array, and a warning where the comma before a negative one may be
-    /// missing, which is then subtracted from the value before it.
+    /// 20904 where no comma separates two values of an array.
     fn separated_values(&mut self, group: &Group) {
-        self.subtracted(group);
         let joined = group.items.windows(2).find_map(|pair| {
             let (end, start) = (pair[0].span.end(), pair[1].span.start);
             (!self.masked.get(end as usize..start as usize)?.contains(',')).then_some(pair[1].span)
@@ -298,9 +304,9 @@ impl Builder<'_> {
     }
 
     /// K-0109 for `[10 -2]`: a sign with a blank before it and none behind it, as before the next value of a list.
-    fn subtracted(&mut self, group: &Group) {
-        let start = group.span.start as usize;
-        let text = self.masked.get(start..group.span.end() as usize).unwrap_or_default();
+    fn subtracted(&mut self, list: Span) {
+        let start = list.start as usize;
+        let text = self.masked.get(start..list.end() as usize).unwrap_or_default();
         let is_value =
             |byte: u8| byte.is_ascii_alphanumeric() || matches!(byte, b'.' | b']' | b'_');
         let bytes = text.as_bytes();
