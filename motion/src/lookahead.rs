@@ -51,7 +51,7 @@ use crate::cap::{Cap, SpeedLimit};
 use crate::profile::FLAT_MM_S2;
 use crate::profile::{Infeasible, Profile};
 use crate::queue::Queued;
-use crate::ride::{Cell, connects_gently, jerk_steps, ride};
+use crate::ride::{JERK_STEPS, connects_gently, jerk_steps, ride};
 pub(crate) use draft::Draft;
 use outline::Outline;
 use std::sync::Arc;
@@ -254,31 +254,34 @@ impl Window<'_> {
             return Ok((profile, Vec::new()));
         }
         let worst = most_exceeded(blocks, feeds, caps, s, &profile);
-        let mut steps = Vec::new();
-        let along = |cells: Vec<Cell>| {
-            let ride = ride(&cells, (from.v_mm_s, 0.0), to.v_mm_s)?;
-            steps = jerk_steps(&cells);
-            let gentle = !steps.is_empty() || worst.is_some() && connects_gently(&cells);
-            let slower =
-                gentle && self.part(s, from, to).is_faster_with_knots(&steps, ride.duration());
-            (!slower).then_some(ride)
-        };
         // the stop at the end of the look-ahead is planned again with the blocks that follow
         let is_final = s.end < blocks.len() || self.end.why != SpeedLimit::Lookahead;
         let uneven = || {
             let peak = profile.peak();
             s.is_uneven(blocks, peak) || is_final && s.has_strong_row(blocks, peak)
         };
-        let ridden = (worst.is_some() || uneven())
+        let along = (worst.is_some() || uneven())
             .then(|| cells(blocks, feeds, caps, s.first, s.end))
-            .flatten()
-            .and_then(along);
-        Ok(match (ridden, worst) {
-            (Some(ride), None) if ride.duration() >= profile.duration() => (profile, Vec::new()),
-            (Some(ride), _) => (ride, Vec::new()),
-            (None, worst) => {
+            .flatten();
+        let Some(along) = along else { return Ok((profile, worst.into_iter().collect())) };
+        let ride = ride(&along, (from.v_mm_s, 0.0), to.v_mm_s)
+            .filter(|ride| worst.is_some() || ride.duration() < profile.duration());
+        // what knots at steps of the jerk have to save; a profile that exceeds a limit needs a knot in any case
+        let known = ride.as_ref().or(worst.is_none().then_some(&profile)).map(Profile::duration);
+        let part = self.part(s, from, to);
+        let faster = |steps: &Vec<usize>| {
+            let gentle = !steps.is_empty() || worst.is_some() && connects_gently(&along);
+            gentle && known.is_some_and(|known_s| part.is_faster_with_knots(steps, known_s))
+        };
+        let mut tried = JERK_STEPS.map(|ratio| jerk_steps(&along, ratio)).to_vec();
+        tried.dedup();
+        let steps = tried.into_iter().find(faster);
+        Ok(match (steps, ride) {
+            (Some(steps), _) => {
                 (profile, steps.iter().map(|step| s.first + step).chain(worst).collect())
             }
+            (None, Some(ride)) => (ride, Vec::new()),
+            (None, None) => (profile, worst.into_iter().collect()),
         })
     }
 

@@ -40,8 +40,9 @@ const CUT: f64 = 30.0 * SLACK;
 const REST_MM_S: f64 = 1e-9;
 /// Relative gain of speed from which on a hill between two equal limits at the ends of a block is used.
 const HILL: f64 = 0.005;
-/// Ratio of the jerks of neighbouring blocks from which on zero acceleration at their boundary may be faster.
-const JERK_STEP: f64 = 1.1;
+/// Ratios of the jerks of neighbouring blocks from which on zero acceleration at their boundary may be faster: only between
+/// rows of similar blocks, or between all of them.
+pub(crate) const JERK_STEPS: [f64; 2] = [2.0, 1.1];
 
 /// One block of a stretch.
 #[derive(Clone, Copy, Debug)]
@@ -135,16 +136,16 @@ pub(crate) fn connects_gently(cells: &[Cell]) -> bool {
     has_sine_ramps(cells) && own(cells).iter().any(lopsided)
 }
 
-/// The cells whose jerk differs considerably from that of the cell before. A ride with sine-square ramps uses the
+/// The cells whose jerk differs by this ratio or more from that of the cell before. A ride with sine-square ramps uses the
 /// smaller jerk on both sides of the boundary ([`sine`]), so a tiny block would slow down the whole of a long one next
 /// to it.
-pub(crate) fn jerk_steps(cells: &[Cell]) -> Vec<usize> {
+pub(crate) fn jerk_steps(cells: &[Cell], ratio: f64) -> Vec<usize> {
     if !has_sine_ramps(cells) {
         return Vec::new();
     }
     let jerks: Vec<f64> = own(cells).iter().map(Block::least_jerk).collect();
     let steps = jerks.windows(2).zip(1..);
-    let steps = steps.filter(|(j, _)| j[0].max(j[1]) > JERK_STEP * j[0].min(j[1]));
+    let steps = steps.filter(|(j, _)| j[0].max(j[1]) > ratio * j[0].min(j[1]));
     steps.map(|(_, after)| after).collect()
 }
 

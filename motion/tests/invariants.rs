@@ -7,6 +7,7 @@ use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope};
 use kontur_motion::path::Path;
 use kontur_motion::planner::Setpoint;
+use std::sync::Arc;
 
 fn limits(r: &mut Random) -> AxisDynamics {
     let mut a = axis(if r.ratio() < 0.3 { 0.0 } else { r.log(0.05, 1.0) });
@@ -213,6 +214,59 @@ fn a_reversed_contour_takes_the_same_time() {
             let allowed =
                 if slope.kind == Hsc || slope.optimised { cycles[0] / 500 + 1 } else { 1 };
             assert!(apart <= allowed, "{program} {slope:?}: {cycles:?}");
+        }
+    }
+}
+
+/// Rows of short blocks with other accelerations than their neighbours: along a straight line the way back takes the same
+/// time, and no row takes the speed from another one, so that the whole takes no longer than with a stop between them.
+#[test]
+fn a_weak_row_does_not_slow_a_strong_one() {
+    let mut r = Random::from_state(6);
+    for program in 0..25 {
+        let axes = vec![limits(&mut r), limits(&mut r)];
+        let feed = r.log(100.0, 2000.0);
+        let mut x = 0.0;
+        let rows: Vec<Vec<(f64, [f64; 2])>> = (0..2 + r.below(4))
+            .map(|row| {
+                // ratios of the acceleration; neighbours differ, but less than the rows
+                let ratios = if row % 2 == 0 { [0.1, 0.11, 0.12] } else { [0.8, 0.9, 1.0] };
+                let blocks = 1 + r.below(60);
+                let length = r.log(0.01, 1.0);
+                (0..blocks)
+                    .map(|_| {
+                        let from = x;
+                        x += length * r.between(0.5, 1.0);
+                        (r.pick(&ratios), [from, x])
+                    })
+                    .collect()
+            })
+            .collect();
+        let all: Vec<(f64, [f64; 2])> = rows.iter().flatten().copied().collect();
+        let back: Vec<_> =
+            all.iter().rev().map(|(ratio, [from, to])| (*ratio, [*to, *from])).collect();
+        for slope in kinds() {
+            let cycles = |blocks: &[(f64, [f64; 2])]| {
+                let job = Job { window: 1000, ..job(axes.clone(), slope) };
+                let block = |(seq, (ratio, ends)): (u64, &(f64, [f64; 2]))| {
+                    let [from, to] = ends.map(|x| [x, 0.0]);
+                    let mut block = job.line(seq, &from, &to, feed);
+                    for axis in &mut Arc::make_mut(&mut block.dynamics).axes {
+                        axis.feed.acc_mm_s2 *= ratio;
+                        axis.feed.dec_mm_s2 *= ratio;
+                        axis.step_feed.acc_mm_s2 = axis.step_feed.acc_mm_s2.map(|a| a * ratio);
+                        axis.step_feed.dec_mm_s2 = axis.step_feed.dec_mm_s2.map(|a| a * ratio);
+                    }
+                    block
+                };
+                let start = [blocks[0].1[0], 0.0];
+                job.run(&start, (0..).zip(blocks).map(block)).len()
+            };
+            let (there, back) = (cycles(&all), cycles(&back));
+            let allowed = if slope.kind == Hsc || slope.optimised { there / 500 + 1 } else { 1 };
+            assert!(there.abs_diff(back) <= allowed, "{program} {slope:?}: {there} {back}");
+            let with_stops: usize = rows.iter().map(|row| cycles(row)).sum();
+            assert!(there <= with_stops, "{program} {slope:?}: {there} of {with_stops}");
         }
     }
 }

@@ -55,11 +55,11 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
         for message in a.take_messages() {
             console.announce(&message);
         }
-        if outcome.is_err() && a.has_failed() {
-            // the reason is among the messages
-            return Ok(Exit::Aborted);
-        }
-        let outcome = outcome?;
+        let outcome = match outcome {
+            // what cannot be compared is a consequence of the messages
+            Err(Error::Usage(_)) if a.has_failed() => return Ok(Exit::Aborted),
+            outcome => outcome?,
+        };
         let aborted = failed(&names, [a.has_failed(), false]);
         let program = (!is_a).then_some(args.a.as_path());
         let verdict = || recording::verdict(&outcome, program);

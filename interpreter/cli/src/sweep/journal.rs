@@ -148,25 +148,48 @@ fn head(args: &SweepArgs, reads: &[PathBuf]) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Journal, head};
+    use crate::args::SweepArgs;
     use crate::table::Cell;
     use clap::Parser as _;
 
     const HEADS: [&str; 2] = ["{\"files\":[1]}", "{\"files\":[2]}"];
 
+    fn sweep() -> SweepArgs {
+        let words = ["kontur", "sweep", "a.nc", "--vary", "X.a=1", "-o", "a.csv"];
+        let args = crate::args::Args::try_parse_from(words).unwrap();
+        let crate::args::Command::Sweep(args) = args.command else { panic!("sweep") };
+        args
+    }
+
     #[test]
     fn what_is_no_journal_stays() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.csv.rows");
-        let words = ["kontur", "sweep", "a.nc", "--vary", "X.a=1", "-o", "a.csv"];
-        let args = crate::args::Args::try_parse_from(words).unwrap();
-        let crate::args::Command::Sweep(args) = args.command else { panic!("sweep") };
-        let head = head(&args, &["a.nc".into()]);
+        let head = head(&sweep(), &["a.nc".into()]);
         for (text, is_journal) in [("", true), ("{\"fil", true), (&*head, true), ("G01 X1", false)]
         {
             std::fs::write(&path, text).unwrap();
             assert_eq!(Journal::begin(path.clone(), &head).is_ok(), is_journal, "{text}");
         }
         assert_eq!(std::fs::read(&path).unwrap(), b"G01 X1");
+    }
+
+    /// Another text of the same length and time, and a program that is read only once.
+    #[test]
+    fn a_changed_program_is_another_sweep() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.nc");
+        let args = sweep();
+        let time = std::time::UNIX_EPOCH;
+        let written = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
+            head(&args, std::slice::from_ref(&path))
+        };
+        let before = written("G01 X1 F3000");
+        assert_ne!(before, written("G01 X1 F2000"));
+        assert_eq!(before, written("G01 X1 F3000"));
+        assert_ne!(head(&args, &["-".into()]), head(&args, &["-".into()]));
     }
 
     #[test]

@@ -167,7 +167,7 @@ fn beside_others<'w>(
     words: &'w Words<'_>,
     mirrors: bool,
 ) -> impl Iterator<Item = (Subject, &'static str, Span)> + 'w {
-    let cancels = !mirrors && words.g.iter().any(|g| matches!(g.row.number, 40 | 80));
+    let cancels = !mirrors && words.g.iter().any(|g| g.row.number == 40);
     let of_g = words.g.iter().filter_map(move |g| {
         let number = g.row.number;
         let text = match number {
