@@ -104,6 +104,24 @@ fn the_spindle_that_limits_a_thread_is_named() {
     assert!(reasons.iter().all(|r| r["axis"] != "S"), "{}", milled.summary);
 }
 
+/// Moves of 0.1 mm from rest to rest never reach their acceleration, but its ramps become steeper with it: each of them takes
+/// 4 (s / 2 j)^(1/3), so it gains with the third root of the jerk.
+#[test]
+fn accelerations_are_proposed_where_ramps_take_the_time() {
+    let moves = 40;
+    let back_and_forth = "G01 X0.1 F6000\nX0\n".repeat(moves / 2);
+    let run = Run::new(&format!("#SLOPE [TYPE=TRAPEZ]\n{back_and_forth}M30\n"), &[]);
+    let proposals = run.summary["times"]["proposals"].as_array().unwrap();
+    for (what, root) in
+        [("accelerations +10 % of all axes", 1.1), ("ramp times -10 % of all axes", 1.0 / 0.9)]
+    {
+        let found = proposals.iter().find(|p| p["what"] == what).expect(what);
+        let want = run.duration() * (1.0 - f64::powf(root, -1.0 / 3.0));
+        let saves_s = found["saves_s"].as_f64().unwrap();
+        assert!((saves_s - want).abs() < 0.004, "{what}: {saves_s}, not {want}");
+    }
+}
+
 /// Whatever the path waits for is named; the total is the sum of the lines, and each line is the sum of its reasons.
 #[test]
 fn random_programs_add_up() {

@@ -19,7 +19,8 @@ const MOST_PIPED_BYTES: u64 = 1 << 28;
 /// Largest program, in bytes, that is held in memory to replace its words: 64 MiB.
 const MOST_HELD_BYTES: u64 = 1 << 26;
 
-/// NC programs in files: subroutines relative to the caller, then in the folders given; the program `-` is standard input.
+/// NC programs in files: subroutines are searched for beside the caller, beside the main program, then in the folders given;
+/// the program `-` is standard input.
 ///
 /// Clones share the files they have opened.
 #[derive(Clone, Debug)]
@@ -297,10 +298,12 @@ impl Sources for ProgramFiles {
         let Some(caller) = caller else { return self.main(name) };
         // programs written on Windows use backslashes in the names of subroutines
         let wanted = PathBuf::from(name.replace('\\', "/"));
-        let beside = Path::new(caller).parent().map(|folder| folder.join(&wanted));
+        let beside = Path::new(caller).parent().filter(|folder| *folder != self.home);
+        let folders = beside.into_iter().chain([&*self.home]);
+        let folders = folders.chain(self.folders.iter().map(PathBuf::as_path));
         let mut searched = Vec::new();
         let mut reason = "no such file".to_owned();
-        for place in beside.into_iter().chain(self.folders.iter().map(|f| f.join(&wanted))) {
+        for place in folders.map(|folder| folder.join(&wanted)) {
             if self.is_inside(&place) {
                 match self.file(&place) {
                     Err(e) if e.kind() == io::ErrorKind::NotFound => {

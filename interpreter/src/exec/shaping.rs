@@ -215,13 +215,13 @@ impl ShapingState {
         let guard_on = self.guard_on.unwrap_or(listed.vib_guard.active);
         let fir = listed.fir.map(|fir| self.fir(fir.config));
         let fir_on = self.fir_on.unwrap_or(listed.fir.is_some_and(|fir| fir.enable));
+        if fir.is_some() && guard_on {
+            let text = "the list configures a FIR filter and switches the Vibration Guard on: \
+                        the Vibration Guard is off";
+            let d = Diagnostic::new(Condition::ListFirAndGuard, with_axis(axis, text));
+            found.push(d.axis(axis.number(), axis.name()));
+        }
         if let (Some(config), true) = (fir, fir_on) {
-            if guard_on {
-                let text = "the list switches the Vibration Guard on and a FIR filter is active: \
-                            the Vibration Guard is off";
-                let d = Diagnostic::new(Condition::ListFirAndGuard, with_axis(axis, text));
-                found.push(d.axis(axis.number(), axis.name()));
-            }
             if self.hsc_on && listed.hsc.is_some() {
                 let text = "a FIR filter is active: the HSC filter is off";
                 let d = Diagnostic::new(Condition::FirAndHsc, with_axis(axis, text));
@@ -236,7 +236,7 @@ impl ShapingState {
             found.extend(issues.iter().map(|i| issues::filter(axis, None, i)));
             return shaped(ShapingSettings::Hsc(config), kernel);
         }
-        if guard_on {
+        if guard_on && fir.is_none() {
             let settings = self.guard_settings(listed.vib_guard.settings);
             match settings.kernel(cycle) {
                 Ok(kernel) => return shaped(ShapingSettings::VibGuard(settings), Some(kernel)),

@@ -7,6 +7,7 @@ use super::state::Simulation;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::{Event, ShapingSetup, TimerCall};
 use crate::machine::ChainSetup;
+use kontur_filters::control::AxisControlConfig;
 use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
@@ -186,8 +187,24 @@ impl Simulation {
             Ok(mut chain) => {
                 chain.take_over(before, old, new);
                 self.chains[i] = chain;
+                self.control_changed(i, &old.control, &new.control);
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
+        }
+    }
+
+    /// K-0022 if gains change while the axis is still on its way to its set position; G112 has waited until it is in position.
+    fn control_changed(&mut self, i: usize, old: &AxisControlConfig, new: &AxisControlConfig) {
+        let axis = &self.record.axes[i];
+        let kv = |config: &AxisControlConfig| config.position.gain_at(axis.vel.abs());
+        // the record is that of the previous cycle
+        let lag = axis.lag * (1.0 - kv(old) * self.cycle.seconds());
+        let in_position = lag.abs() <= old.exact_stop.window_mm;
+        let of_gain = if in_position { 0.0 } else { (kv(new) - kv(old)) * lag };
+        let of_feedforward = if old.feedforward == new.feedforward { 0.0 } else { axis.ff };
+        let of_ipc = if old.ipc == new.ipc { 0.0 } else { axis.vadd };
+        if [of_gain, of_feedforward, of_ipc].iter().any(|jump| jump.abs() > LEAST_JUMP_MM_S) {
+            self.changed_while_lagging(i);
         }
     }
 

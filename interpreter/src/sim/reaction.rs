@@ -192,23 +192,49 @@ impl Simulation {
 impl Simulation {
     /// K-0022, once for each place: the set position of a chain moves while its gain changes by `step`.
     pub(super) fn switched_while_moving(&mut self, chain: usize, step: f64) {
-        let at = self.blocks.current;
-        if self.smoothing.is_new(Condition::FeedforwardSwitchedMoving, at) {
-            let v = self.record.axes[chain].vel;
-            let axis = self.machine.all_axes().nth(chain);
-            let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
-            let unit = axis.map_or("mm", Axis::unit);
-            let text = format!(
-                "feedforward is switched or weighted while {name} moves at {v:.3} {unit}/s: its speed command jumps by {:.3} {unit}/s",
-                (step * v).abs()
-            );
-            let d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text).axis(number, name);
-            let mut d = d.value(ValueKind::Current, v, if unit == "mm" { "mm/s" } else { "deg/s" });
-            d.cycle = Some(self.record.k + 1);
-            d.time_s = Some(self.cycle.time_of(self.record.k + 1));
-            d.source = self.program.locate(at);
-            self.messages.own.push(d);
+        let v = self.record.axes[chain].vel;
+        let (name, unit) = self.axis_of(chain);
+        let text = format!(
+            "feedforward is switched or weighted while {name} moves at {v:.3} {unit}/s: its speed command jumps by {:.3} {unit}/s",
+            (step * v).abs()
+        );
+        self.command_jumps(chain, self.blocks.current, text, (v, per_s(unit, 1)));
+    }
+
+    /// K-0022, once for each place: `#MACHINE DATA` changes the control of a chain that has not arrived.
+    pub(super) fn changed_while_lagging(&mut self, chain: usize) {
+        let lag = self.record.axes[chain].lag;
+        let (name, unit) = self.axis_of(chain);
+        let text = format!(
+            "machine data change the control of {name} while it lags by {lag:.4} {unit}: its speed command jumps"
+        );
+        self.command_jumps(chain, self.blocks.waits_at, text, (lag, unit));
+    }
+
+    /// Name and unit of the axis of a chain.
+    fn axis_of(&self, chain: usize) -> (&str, &'static str) {
+        self.machine.all_axes().nth(chain).map_or(("?", "mm"), |a| (a.name(), a.unit()))
+    }
+
+    fn command_jumps(
+        &mut self,
+        chain: usize,
+        at: SourceRef,
+        text: String,
+        (value, unit): (f64, &'static str),
+    ) {
+        if !self.smoothing.is_new(Condition::FeedforwardSwitchedMoving, at) {
+            return;
         }
+        let axis = self.machine.all_axes().nth(chain);
+        let (name, number) = axis.map_or(("?", 0), |a| (a.name(), a.number()));
+        let mut d = Diagnostic::new(Condition::FeedforwardSwitchedMoving, text)
+            .axis(number, name)
+            .value(ValueKind::Current, value, unit);
+        d.cycle = Some(self.record.k + 1);
+        d.time_s = Some(self.cycle.time_of(self.record.k + 1));
+        d.source = self.program.locate(at);
+        self.messages.own.push(d);
     }
 
     /// K-0143, once for each place: a block that waits for every axis ends an oscillation.

@@ -84,11 +84,16 @@ fn wanted(times: &Times, machine: &Machine) -> Vec<Proposal> {
         }
     }
     let contour = [Reason::Corner, Reason::Curve, Reason::AxDev];
-    if share(Reason::Slope, None) >= WORTHWHILE {
+    let slope = share(Reason::Slope, None) >= WORTHWHILE;
+    let contour = contour.iter().any(|reason| share(*reason, None) >= WORTHWHILE);
+    if slope {
         found.extend(proposal(Lever::Ramps, axes, "all axes"));
     }
-    if contour.iter().any(|reason| share(*reason, None) >= WORTHWHILE) {
+    // a ramp within the same time builds up more of it, too
+    if slope || contour {
         found.extend(proposal(Lever::Acceleration, axes, "all axes"));
+    }
+    if contour {
         found.extend(proposal(Lever::GeometricRamp, axes, "all axes"));
     }
     found

@@ -7,7 +7,7 @@ use crate::exec::fault::{Fault, Outcome};
 use crate::exec::names::AxisNames;
 use crate::exec::values::number::{as_number, whole};
 use crate::syntax::ast::{
-    Assign, Expr, ExprKind, Name, ParameterIndex, Place, PlaceKind, Sign, Span,
+    Assign, BinaryOp, Expr, ExprKind, Name, ParameterIndex, Place, PlaceKind, Sign, Span,
 };
 
 /// Letters I, J, K.
@@ -24,6 +24,15 @@ impl Decoder {
         span: Span,
         block: &mut Words<'_>,
     ) -> Outcome<()> {
+        if let ExprKind::Binary(binary) = &value.kind
+            && binary.op <= BinaryOp::GreaterEqual
+            // in brackets it is meant
+            && binary.left.span.start == value.span.start
+        {
+            let text = format!("the value of {} is a truth value here, 1 or 0", name.as_str());
+            let hint = "a second `=`, a comparison, AND and OR make one; write the number alone";
+            self.report.note(Fault::new(Condition::Dialect, text, value.span).hint(hint));
+        }
         let axis = match name {
             Name::Letter(letter) => self.names.of_letter(*letter),
             Name::Long(name) => self.names.of_name(name),

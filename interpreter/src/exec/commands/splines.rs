@@ -187,10 +187,10 @@ impl Akima {
             report.note(Fault::new(condition, text, at));
         }
         if start {
-            self.start.vector.clone_from(&vector);
+            self.start.set_vector(vector.clone());
         }
         if end {
-            self.end.vector = vector;
+            self.end.set_vector(vector);
         }
         start || end
     }

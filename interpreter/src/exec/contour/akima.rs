@@ -53,12 +53,20 @@ pub(in crate::exec) enum Transition {
 pub(in crate::exec) struct End {
     pub(in crate::exec) transition: Transition,
     /// Components of the tangent by axis; axes without one get theirs from the points.
-    pub(in crate::exec) vector: Vec<(usize, f64)>,
+    vector: Vec<(usize, f64)>,
+    /// Whether no spline has begun or ended since the vector was programmed.
+    unread: bool,
     /// Whether a spline has begun with it since G151.
     used: bool,
 }
 
 impl End {
+    /// `#AKIMA STARTVECTOR`, `#AKIMA ENDVECTOR`.
+    pub(in crate::exec) fn set_vector(&mut self, vector: Vec<(usize, f64)>) {
+        self.unread = !vector.is_empty();
+        self.vector = vector;
+    }
+
     /// Whether the program states the tangent, in every axis that moves along the chord.
     fn is_stated(&self, chord: &[f64]) -> bool {
         match self.transition {
@@ -71,9 +79,21 @@ impl End {
         }
     }
 
-    /// Whether it is the end of a spline at an arc, whose tangent replaces the programmed vector.
-    fn loses_vector(&self, at_arc: bool) -> bool {
-        at_arc && self.transition == Transition::User && !self.vector.is_empty()
+    /// K-0100: a vector that the end of a spline does not have, because it is that of an arc or has another transition.
+    fn unused_vector(&self, at_arc: bool, [command, key]: [&str; 2], at: Span) -> Option<Fault> {
+        let (why, hint) = match self.transition {
+            Transition::User if at_arc && !self.vector.is_empty() => (
+                "beside an arc the spline has the tangent of the arc".to_owned(),
+                "arcs interrupt a spline tangentially; write G150 before the arc, or G151 after it"
+                    .to_owned(),
+            ),
+            Transition::Auto | Transition::Tangential if self.unread => {
+                (format!("{key} is not USER"), format!("write #AKIMA TRANS [{key}=USER]"))
+            }
+            _ => return None,
+        };
+        let text = format!("#AKIMA {command} has no effect here: {why}");
+        Some(*Fault::new(Condition::Ignored, text, at).hint(hint))
     }
 
     /// Derivatives of single axes, or of all.
@@ -154,15 +174,6 @@ pub(in crate::exec) struct Akima {
     /// Whether an arc has interrupted the spline, which then continues tangentially.
     behind_arc: bool,
     run: Option<Box<Run>>,
-}
-
-/// K-0100: the vector of a spline that begins or ends at an arc.
-fn unused_vector(command: &str, at: Span) -> Fault {
-    let text = format!(
-        "#AKIMA {command} has no effect here: beside an arc the spline has the tangent of the arc"
-    );
-    *Fault::new(Condition::Ignored, text, at)
-        .hint("arcs interrupt a spline tangentially; write G150 before the arc, or G151 after it")
 }
 
 /// Direction of a path at one of its ends, by its length.
@@ -300,20 +311,28 @@ fn falls_below(f: impl Fn(f64) -> f64, limit: f64, slope: f64) -> bool {
 }
 
 impl Akima {
-    /// G150, G151; a note if the spline has ended at an arc although the program states the tangent of its end.
+    /// G150, G151; a note if the spline has ended without the tangent that the program states for its end.
     pub(in crate::exec) fn select(&mut self, on: bool, at: Span) -> Vec<Fault> {
         let at_arc = std::mem::take(&mut self.behind_arc) && self.run.is_none();
         self.start.used &= on && self.selected;
+        let ends = self.selected && !on;
         self.selected = on;
-        let unused = !on && self.end.loses_vector(at_arc);
-        unused.then(|| unused_vector("ENDVECTOR", at)).into_iter().collect()
+        if !ends {
+            return Vec::new();
+        }
+        let unused = self.end.unused_vector(at_arc, ["ENDVECTOR", "END"], at);
+        self.end.unread = false;
+        unused.into_iter().collect()
     }
 
-    /// A note if the first spline of G151 begins at an arc although the program states the tangent of its start.
+    /// A note if the first spline of G151 begins without the tangent that the program states for its start.
     pub(super) fn unused_start(&self, motion: &Motion) -> Option<Fault> {
         let begins = !self.start.used && self.run.is_none();
-        (begins && self.start.loses_vector(self.behind_arc))
-            .then(|| unused_vector("STARTVECTOR", motion.span))
+        begins
+            .then(|| {
+                self.start.unused_vector(self.behind_arc, ["STARTVECTOR", "START"], motion.span)
+            })
+            .flatten()
     }
 
     /// A motion outside splines, while none is in progress: the next one continues tangentially behind an arc.
@@ -358,7 +377,7 @@ impl Akima {
                 behind_arc,
             })
         });
-        self.start.used = true;
+        (self.start.used, self.start.unread) = (true, false);
         run.waiting.push_back(motion);
         run.slopes.push_back(slope);
         while run.waiting.len() > AHEAD {

@@ -69,6 +69,14 @@ pub(super) struct Parts<'a> {
     pub(super) dropped: Option<&'a str>,
 }
 
+/// Digits with or without a point, or hexadecimal ones after `0x`.
+fn is_number(text: &str) -> bool {
+    match text.strip_prefix("0x").or(text.strip_prefix("0X")) {
+        Some(digits) => !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit()),
+        None => text.bytes().all(|b| b.is_ascii_digit() || b == b'.'),
+    }
+}
+
 fn is_comment(text: &str) -> bool {
     ["#", "(", "/*"].iter().any(|opener| text.starts_with(opener))
 }
@@ -89,15 +97,20 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     if let Raw::Flags(names) = raw {
         let value = flags(rest);
         // a further flag without a joining `|` is not meant as a comment; after a number its name is one, as in the
-        // vendor's lists
-        let is_number = value.starts_with(|c: char| c.is_ascii_digit());
-        let next = rest[value.len()..].split_whitespace().next().filter(|_| !is_number);
-        let flag = |word: &&str| {
-            names
-                .iter()
-                .any(|(name, _)| name.eq_ignore_ascii_case(word.trim_end_matches([',', ';'])))
+        // vendor's lists, and nothing but a number is not
+        let is_flag = |word: &&str| {
+            let word = word.trim_end_matches([',', ';']);
+            names.iter().any(|(name, _)| name.eq_ignore_ascii_case(word))
         };
-        return Parts { value: Some(value), dropped: next.filter(flag) };
+        let tail = &rest[value.len()..];
+        let mut words = tail.split_whitespace().skip_while(|word| matches!(*word, "+" | "&" | ","));
+        let next = if value.starts_with(|c: char| c.is_ascii_digit()) {
+            let all = tail.split_whitespace().take_while(|word| !is_comment(word)).all(is_number);
+            words.next().filter(|word| all && !is_comment(word))
+        } else {
+            words.next().filter(is_flag)
+        };
+        return Parts { value: Some(value), dropped: next };
     }
     let (word, tail) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     if raw == Raw::Text {
@@ -105,9 +118,8 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
     }
     let end = word.find('#').unwrap_or(word.len());
     // nothing but numbers behind a number is no comment: `5 000`, but `5000 10 is 0.1/s`
-    let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit() || b == b'.');
     let mut words = std::iter::once(word).chain(tail.split_whitespace());
-    let numbers = words.by_ref().take_while(|word| !is_comment(word)).all(number);
+    let numbers = words.by_ref().take_while(|word| !is_comment(word)).all(is_number);
     let next = tail.split_whitespace().next().filter(|next| numbers && !is_comment(next));
     Parts { value: Some(&word[..end]), dropped: next }
 }
@@ -195,6 +207,12 @@ mod tests {
         assert_eq!(both, Parts { value: Some("VEL"), dropped: Some("ACC") });
         let number = value(Raw::Flags(&[("VEL", 1)]), "0x00000001     VEL  (speed");
         assert_eq!(number, Parts { value: Some("0x00000001"), dropped: None });
+        let sum = value(Raw::Flags(&[("VEL", 1), ("ACC", 2)]), "VEL + ACC");
+        assert_eq!(sum, Parts { value: Some("VEL"), dropped: Some("ACC") });
+        let numbers = value(Raw::Flags(&[("VEL", 1)]), "0x1 0x4 # both");
+        assert_eq!(numbers, Parts { value: Some("0x1"), dropped: Some("0x4") });
+        let explained = value(Raw::Flags(&[("VEL", 1)]), "0x101 0x1: VEL");
+        assert_eq!(explained, Parts { value: Some("0x101"), dropped: None });
         let remark = value(Raw::Flags(&[("VEL", 1)]), "VEL and more");
         assert_eq!(remark, Parts { value: Some("VEL"), dropped: None });
         assert_eq!(names("VEL |ACC  # both"), Some("VEL |ACC"));

@@ -81,10 +81,18 @@ fn panels(
     };
     let high = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(0.0, f64::max);
     let low = all(&magnitude).into_iter().filter(|v| v.is_finite()).fold(-3.0, f64::min);
-    // close to a zero the group delay is unbounded; the picture shows it for the passed frequencies
-    let passing = magnitude.iter().zip(&delay).flat_map(|(m, d)| m.points.iter().zip(&d.points));
-    let shown = passing.filter(|(m, _)| m[1] > PASSING_DB).map(|(_, d)| d[1]).chain([0.0]);
-    let shown = around(shown, 0.1);
+    // close to a zero the group delay is unbounded; the picture shows it for the passed frequencies, and without any of them
+    // for the middle nine tenths of the values
+    let samples = magnitude.iter().zip(&delay).flat_map(|(m, d)| m.points.iter().zip(&d.points));
+    let passing = samples.filter(|(m, _)| m[1] > PASSING_DB).map(|(_, d)| d[1]);
+    let mut shown: Vec<f64> = passing.collect();
+    if shown.is_empty() {
+        shown = all(&delay).into_iter().filter(|v| v.is_finite()).collect();
+        shown.sort_by(f64::total_cmp);
+        let cut = shown.len() / 20;
+        shown = shown[cut..shown.len() - cut].to_vec();
+    }
+    let shown = around(shown.into_iter().chain([0.0]), 0.1);
     let panel = |title: &str, label: &'static str, range_y, lines, levels| View {
         title: title.to_owned(),
         x: Scale::logarithmic("frequency in Hz", range),

@@ -1,0 +1,8 @@
+; run: exit 0
+; warning K-0022 at 7:1
+N10 X10 F6000
+N20 G04 1
+N30 #MACHINE DATA [AX=X AXPARAM="getriebe[0].kv 3000"]
+N40 X20
+N50 #MACHINE DATA [AX=X AXPARAM="getriebe[0].kv 5000"]
+N60 M30
