@@ -33,7 +33,7 @@ pub(crate) fn combinations(vary: &[Vary]) -> Result<Vec<Vec<usize>>, Error> {
         if !all_used.contains(&v.key) || !used(v).is_empty() {
             let name = &v.key;
             return Err(Error::Usage(format!(
-                "--vary: {name} is the name of values that another --vary uses as {{{name}}}; a list parameter is AXIS.{name}"
+                "--vary: {name} is the name of values that another --vary uses as {{{name}}}; a list parameter is AXIS.{name}, a value of the program program.{name}"
             )));
         }
     }

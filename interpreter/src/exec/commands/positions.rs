@@ -67,6 +67,9 @@ fn assign(
     call: &Call<'_>,
     position: impl Fn(&Decoder, usize) -> f64,
 ) -> Outcome<()> {
+    if call.command.groups.is_empty() {
+        return Err(wrong(call, call.span()));
+    }
     call.no_more_words()?;
     let ([group], []) = (&call.command.groups[..], &call.command.arguments[..]) else {
         return Err(wrong(call, call.span()));
