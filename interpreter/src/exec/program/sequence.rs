@@ -8,7 +8,7 @@
 //!
 //! Source: TF5200 programming manual, calling block sequences; 21696.
 
-use super::calls::{LEVELS_MAX, too_deep};
+use super::calls::too_deep;
 use super::executor::Executor;
 use super::index::LabelPlace;
 use super::state::Target;
@@ -39,7 +39,7 @@ impl Executor {
 
     fn sequence(&mut self, group: &Group) -> Outcome<()> {
         let words = self.sequence_words(group)?;
-        if self.levels.len() >= LEVELS_MAX {
+        if !self.levels.has_room() {
             let text = too_deep();
             return Err(Fault::new(Condition::SubroutineNesting, text, group.span));
         }
@@ -80,10 +80,8 @@ impl Executor {
             _ => behind.offset,
         };
         self.push_level(Target { file, section }, None);
-        if let Some(level) = self.levels.last_mut() {
-            (level.at, level.end) = (start, end);
-            level.passes = words.repeat.map_or(0, |n| n - 1);
-            level.begin = start;
+        if let Some(level) = self.levels.current_mut() {
+            level.restrict(start, end, words.repeat.unwrap_or(1));
         }
         Ok(())
     }

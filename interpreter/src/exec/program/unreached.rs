@@ -115,7 +115,7 @@ impl Executor {
     /// K-0004: blocks after the M02 or M30 that ended the main program. An end inside a control block, or with a label
     /// after it, need not be the end of the program.
     fn text_behind_end(&mut self, index: &Index, section: &Section, end: u64) {
-        let main = matches!(&self.levels[..], [main] if main.frames.is_empty());
+        let main = matches!(&self.levels[..], [main] if main.is_outside_structures());
         let last = self.position.offset >= section.start.offset && self.position.offset < end;
         if self.found.errors() > 0
             || !main
