@@ -6,7 +6,7 @@
 mod loops;
 
 use super::executor::Executor;
-use super::index::{EntryId, Keyword};
+use super::index::{EntryId, Index, Keyword};
 use super::reads::Reads;
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
@@ -18,6 +18,17 @@ use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
 const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
+
+/// The clause at which `$SWITCH` continues.
+enum Clause {
+    /// The first equal case, with the position after it.
+    Case(Position),
+    /// The position of `$DEFAULT`.
+    Default(Position),
+    Missing,
+    /// An error ended the program before it was found.
+    Unknown,
+}
 
 impl Executor {
     /// Executes a control statement listed in the index as `id`.
@@ -193,6 +204,29 @@ impl Executor {
         if let Some(first) = index.entry(id).next.map(|clause| index.entry(clause).position) {
             self.before_clauses(file, first, span);
         }
+        match self.clause(file, &index, id, &value)? {
+            Clause::Case(behind) => {
+                self.levels.open(id, None, &mut self.files);
+                self.levels.jump_to(behind);
+            }
+            Clause::Default(at) => {
+                self.levels.open(id, None, &mut self.files);
+                self.jump_behind(at);
+            }
+            Clause::Missing => self.leave_structure(id),
+            Clause::Unknown => {}
+        }
+        Ok(())
+    }
+
+    /// Evaluates the cases of `$SWITCH` until one is equal to its value.
+    fn clause(
+        &mut self,
+        file: usize,
+        index: &Index,
+        id: EntryId,
+        value: &Value,
+    ) -> Outcome<Clause> {
         let mut default = None;
         let mut at = index.entry(id).next;
         while let Some(clause) = at {
@@ -202,33 +236,24 @@ impl Executor {
                 Keyword::Default => default = Some(entry.position),
                 Keyword::Case => {
                     let Some((parsed, behind)) = self.fetch(file, entry.position) else {
-                        return Ok(());
+                        return Ok(Clause::Unknown);
                     };
                     let Body::Control(control) = &parsed.block.body else { continue };
                     let ControlKind::Case(case) = &control.kind else { continue };
                     if !self.rests_before(parsed.reads.external) {
-                        return Ok(());
+                        return Ok(Clause::Unknown);
                     }
                     let here = std::mem::replace(&mut self.position, entry.position);
-                    let equal = matches(&value, &self.decoder.value(case)?);
+                    let equal = matches(value, &self.decoder.value(case)?);
                     self.position = here;
                     if equal {
-                        self.levels.open(id, None, &mut self.files);
-                        self.levels.jump_to(behind);
-                        return Ok(());
+                        return Ok(Clause::Case(behind));
                     }
                 }
                 _ => {}
             }
         }
-        match default {
-            Some(default) => {
-                self.levels.open(id, None, &mut self.files);
-                self.jump_behind(default);
-            }
-            None => self.leave_structure(id),
-        }
-        Ok(())
+        Ok(default.map_or(Clause::Missing, Clause::Default))
     }
 
     /// Blocks between `$SWITCH` and its first clause do not belong to any case.

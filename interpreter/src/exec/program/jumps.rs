@@ -124,8 +124,10 @@ impl Executor {
         }
         let program = self.program_of(level);
         if let LabelKind::Number(number) = label {
-            self.learn_numbers(file, section, span)?;
-            if let Some(place) = self.numbered(file, section, *number, span) {
+            self.sequences.learn(&mut self.files, (file, section), span)?;
+            let report = &mut self.decoder.report;
+            let place = self.sequences.find((file, section), *number, span, report);
+            if let Some(place) = place {
                 return Ok(place);
             }
             let text = format!("{program} has neither a label nor a block N{number}");
