@@ -42,10 +42,11 @@ mod weaker;
 
 pub use fit::Infeasible;
 pub(crate) use phase::Phase;
+pub use phase::State;
 pub use ramp::RampShape;
 pub use ramped::RampedLimits;
 pub(crate) use ramped::Rates;
-pub use row::{Profile, State};
+pub use row::Profile;
 pub use slope::SlopeLimits;
 pub use step::{StepAxis, StepLimits};
 pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};

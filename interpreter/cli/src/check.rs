@@ -5,9 +5,10 @@ mod sarif;
 
 use crate::args::{CheckArgs, CheckForm, Deny};
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::request::OpenError;
 use crate::run::announce_lists;
-use crate::{Error, Exit, workflow};
+use crate::workflow;
 use kontur_interpreter::diag::{Diagnostic, Severity};
 use serde::Serialize;
 use std::collections::HashSet;

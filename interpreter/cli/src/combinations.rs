@@ -1,9 +1,9 @@
 //! All combinations of parameters with several values each.
 
-use crate::Error;
 use crate::args::Vary;
 use crate::args::values::after_external;
 use crate::args::vary::{MOST_COMBINATIONS, used_name};
+use crate::error::Error;
 use crate::request::Request;
 use crate::words::Word;
 use std::collections::HashMap;

@@ -14,7 +14,7 @@
 //! ```
 
 use crate::args::MessageForm;
-use crate::{Error, Exit};
+use crate::error::{Error, Exit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kontur_interpreter::diag::render::{self, printable};
 use kontur_interpreter::diag::{Diagnostic, Severity, shortened};

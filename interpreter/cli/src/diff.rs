@@ -16,8 +16,8 @@ mod verdict;
 
 use crate::args::{DiffArgs, OutputForm};
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::files::is_standard;
-use crate::{Error, Exit};
 use compare::Comparison;
 use serde::Serialize;
 use std::path::{Path, PathBuf};

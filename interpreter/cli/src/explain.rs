@@ -11,7 +11,7 @@
 
 use crate::args::ExplainArgs;
 use crate::console::Console;
-use crate::{Error, Exit};
+use crate::error::{Error, Exit};
 
 /// Explains the term formed by the words (`#VIB GUARD` and `L CYCLE` are two words in a shell) or, if there is no such
 /// term, every word.

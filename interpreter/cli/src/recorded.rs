@@ -14,7 +14,7 @@ mod even;
 pub(crate) use channel::Channel;
 pub(crate) use even::{DropOut, Even};
 
-use crate::Error;
+use crate::error::Error;
 use even::{JITTER_RATIO, median};
 use kontur_interpreter::source::text::Text;
 use std::fs::File;

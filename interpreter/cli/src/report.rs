@@ -18,11 +18,12 @@ mod views;
 
 use crate::args::ReportArgs;
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::files::STANDARD;
 use crate::request::{Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::target::keep_apart;
-use crate::{Error, Exit, times};
+use crate::times;
 use drawn::Drawn;
 use kontur_interpreter::diag::render::printable;
 use kontur_interpreter::record::Rows;

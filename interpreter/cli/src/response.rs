@@ -28,8 +28,8 @@ mod view;
 
 use crate::args::ResponseArgs;
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::table::Table;
-use crate::{Error, Exit};
 use std::path::Path;
 use view::Answer;
 

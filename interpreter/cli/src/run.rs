@@ -2,12 +2,13 @@
 
 use crate::args::{RunArgs, SummaryForm};
 use crate::console::{Console, Progress};
+use crate::error::{Error, Exit};
 use crate::files::is_standard;
 use crate::interrupt::Running;
 use crate::request::{OpenError, Opened};
 use crate::target::{Target, create_all, keep_apart};
+use crate::times;
 use crate::trace::Trace;
-use crate::{Error, Exit, times};
 use kontur_interpreter::job::{Run, Sink, Totals, Work};
 use kontur_interpreter::record::{Asked, Rows};
 use kontur_interpreter::summary::{Collector, Summary};

@@ -15,7 +15,7 @@
 //! # Ok::<(), clap::Error>(())
 //! ```
 
-use crate::Error;
+use crate::error::Error;
 use serde::{Deserialize, Serialize};
 
 /// A value of a table.

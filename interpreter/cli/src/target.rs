@@ -4,7 +4,7 @@
 //! until then, and if the command fails, an existing file stays as it was. The temporary file is created with the first
 //! byte, so that a killed run does not leave an empty one.
 
-use crate::Error;
+use crate::error::Error;
 use crate::files::is_standard;
 use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, Read as _, Write as _};

@@ -9,8 +9,8 @@ pub(crate) mod fixed;
 pub(crate) mod parquet;
 mod writer;
 
-use crate::Error;
 use crate::console::Console;
+use crate::error::Error;
 use crate::files::STANDARD;
 use crate::target::Target;
 use background::Background;

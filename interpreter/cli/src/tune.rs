@@ -30,9 +30,9 @@ pub mod vibration;
 
 use crate::args::TuneArgs;
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::lists::Lists;
 use crate::target::{keep_apart, write};
-use crate::{Error, Exit};
 use kontur_filters::analysis::tuning::VibrationBand;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;

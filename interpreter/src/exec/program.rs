@@ -13,6 +13,7 @@ pub(super) mod flow;
 pub(super) mod index;
 pub(super) mod info;
 mod jumps;
+mod level;
 mod levels;
 pub(super) mod places;
 mod reached;

@@ -8,7 +8,7 @@ use super::parameters::Parameters;
 use super::plausible;
 use super::settled::{AxisList, Settled};
 use super::table::param::{Param, Text, whole};
-use super::table::{ListKind, kontur, start_up as stup};
+use super::table::{ListKind, own, start_up as stup};
 use super::{Machine, hints, inert, link};
 use crate::diag::{AxisRef, Condition, Diagnostic, Location, Severity};
 use kontur_filters::time::CycleTime;
@@ -324,7 +324,7 @@ impl Chain<'_> {
         // the cycle first: it limits delay times
         plausible::check(&mut settled.own, CycleTime::DEFAULT, None, diagnostics);
         let cycle =
-            CycleTime::from_us(settled.own.get(kontur::CYCLE_TIME)).unwrap_or(CycleTime::DEFAULT);
+            CycleTime::from_us(settled.own.get(own::CYCLE_TIME)).unwrap_or(CycleTime::DEFAULT);
         plausible::check(&mut settled.start_up, cycle, None, diagnostics);
         plausible::check(&mut settled.channel, cycle, None, diagnostics);
         plausible::check(&mut settled.tools, cycle, None, diagnostics);

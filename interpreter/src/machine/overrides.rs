@@ -2,7 +2,7 @@
 
 use super::key::Key;
 use super::parameters::Parameters;
-use super::table::{self, Indices, ListKind, Row, kontur};
+use super::table::{self, Indices, ListKind, Row, own};
 use super::value;
 use crate::diag::{Condition, Diagnostic, Location};
 
@@ -97,7 +97,7 @@ impl Override {
 
     /// Whether it sets the cycle (`kontur.cycle_time_us`).
     pub(crate) fn sets_cycle(&self) -> bool {
-        self.parameter() == Some(kontur::CYCLE_TIME.place().row)
+        self.parameter() == Some(own::CYCLE_TIME.place().row)
     }
 
     fn resolve(&self, kind: ListKind) -> Result<(&'static Row, Indices), Box<Diagnostic>> {

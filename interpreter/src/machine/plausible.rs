@@ -13,7 +13,7 @@ use super::table::param::Place;
 use super::table::{
     self, Bound, Correction, Default, Indices, ListKind, OutOfRange, Raw, Row, with_indices,
 };
-use super::table::{axis_drive, kontur};
+use super::table::{axis_drive, own};
 use super::value::Value;
 use crate::diag::{AxisRef, Condition, Diagnostic, Named, Severity, ValueKind};
 use kontur_filters::time::CycleTime;
@@ -223,7 +223,7 @@ pub(super) fn check_sampling(
     let sampling = [axis_drive::SIMU_SAMPLING_NUM, axis_drive::SIMU_SAMPLING_DENOM];
     let [z, n] = sampling.map(|param| parameters.listed(param).unwrap_or_default());
     let Some(setting) = sampling.iter().find_map(|param| parameters.set_by(*param)) else { return };
-    let model = own.get(kontur::PLANT_MODEL.at(axis.number));
+    let model = own.get(own::PLANT_MODEL.at(axis.number));
     if model.as_deref() != Some("SIMU") {
         if setting.is_changed() {
             let text = format!(

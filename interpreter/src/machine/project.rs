@@ -42,7 +42,7 @@ mod list;
 use super::chain::{OWN_LIST, SEPARATORS, beside};
 use super::kind::{AxisKind, kind_of};
 use super::lists::{self, ListFiles};
-use super::table::{ListKind, channel as of, kontur as own};
+use super::table::{ListKind, channel as of, own};
 use crate::diag::{Condition, Diagnostic, Severity};
 use axes::spindles_of;
 use content::Content;

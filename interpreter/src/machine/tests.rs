@@ -1,6 +1,6 @@
 mod reactions;
 
-use super::table::kontur;
+use super::table::own;
 use super::*;
 use crate::diag::{Condition, Diagnostic};
 use kontur_filters::control::plant::PlantModel;
@@ -212,7 +212,7 @@ fn an_override_gives_the_bits_of_a_list_value() {
         for key in ["getriebe[0].kv", "filter[0].fg_f0", "getriebe[0].dynamik.vb_max"] {
             assert_eq!(a.raw(key).map(f64::to_bits), b.raw(key).map(f64::to_bits));
         }
-        assert_eq!(a.get(kontur::TIME_CONSTANT).to_bits(), b.get(kontur::TIME_CONSTANT).to_bits());
+        assert_eq!(a.get(own::TIME_CONSTANT).to_bits(), b.get(own::TIME_CONSTANT).to_bits());
     }
 }
 
@@ -325,8 +325,8 @@ fn the_builtin_machine_loads_without_a_message() {
     assert_eq!(names, [("X", 1), ("Y", 2), ("Z", 3), ("S", 4)]);
     assert_eq!(machine.channel.dynamics.slope, SlopeKind::Trapez);
     let x = machine.axis("X").unwrap();
-    assert!(close(x.kv_1_s(), 50.0) && close(x.get(kontur::TIME_CONSTANT), 0.005));
-    assert_eq!(x.get(kontur::PLANT_MODEL).as_deref(), Some("PT1"));
+    assert!(close(x.kv_1_s(), 50.0) && close(x.get(own::TIME_CONSTANT), 0.005));
+    assert_eq!(x.get(own::PLANT_MODEL).as_deref(), Some("PT1"));
     // the square-corner program needs a velocity jump at kinks that does not depend on the cycle
     assert!(close(x.dynamics().a_trans_ratio, 1.0));
 }

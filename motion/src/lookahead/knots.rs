@@ -2,7 +2,8 @@
 //!
 //! Only the marks are modified; the window is read.
 
-use super::stretch::{Stretch, rates};
+use super::outline::{ALIKE, rates};
+use super::stretch::Stretch;
 use super::{Window, is_above};
 use crate::cap::Cap;
 use crate::ride::has_hill;
@@ -11,8 +12,6 @@ use crate::ride::has_hill;
 /// value (Assumption: the direction of a CAM contour changes little from block to block, and the control does not
 /// reduce its acceleration to zero there).
 const NEARLY_EQUAL: f64 = 0.1;
-/// Relative difference up to which limits of two blocks count as equal: rounding.
-pub(super) const ALIKE: f64 = 1e-6;
 
 impl Window<'_> {
     /// Boundaries at which the fastest speed without a jerk limit has a distinct local minimum. There the acceleration

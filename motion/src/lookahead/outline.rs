@@ -4,10 +4,12 @@
 //! those of a window do not fit into the first cache of a processor; its outlines do. They depend on the blocks alone and
 //! stay valid while the window moves on or its limits are lowered, see [`super::Draft`].
 
-use super::knots::ALIKE;
-use super::stretch::rates;
+use crate::profile::{Rates, SlopeLimits};
 use crate::queue::Queued;
 use std::sync::Arc;
+
+/// Relative difference up to which limits of two blocks count as equal: rounding.
+pub(super) const ALIKE: f64 = 1e-6;
 
 /// A block with what it and the boundary before it mean to a plan, as far as no limit of the window is concerned.
 #[derive(Clone, Debug)]
@@ -68,6 +70,14 @@ impl Outline {
     /// Whether the rates are also those of the block before, up to rounding.
     pub(super) fn same_rates(&self) -> bool {
         self.likeness == Likeness::Rates
+    }
+}
+
+/// Rates of the limits of a block; `None` with STEP and with constant ramp times.
+pub(super) fn rates(block: &Queued) -> Option<Rates> {
+    match &block.slope {
+        SlopeLimits::Ramped(limits) => limits.rates(),
+        SlopeLimits::Step(_) => None,
     }
 }
 

@@ -2,11 +2,10 @@
 //!
 //! A stretch has its blocks; the speeds at its ends belong to the window.
 
-use super::outline::Outline;
+use super::outline::{Outline, rates};
 use super::{Window, is_above};
 use crate::cap::Cap;
 use crate::profile::{Infeasible, Profile, Rates, SlopeLimits};
-use crate::queue::Queued;
 use crate::ride::{Cell, has_hill};
 use smallvec::SmallVec;
 use std::ops::Deref;
@@ -220,13 +219,6 @@ pub(super) fn cells(
         .collect()
 }
 
-pub(super) fn rates(block: &Queued) -> Option<Rates> {
-    match &block.slope {
-        SlopeLimits::Ramped(limits) => limits.rates(),
-        SlopeLimits::Step(_) => None,
-    }
-}
-
 /// The boundary inside a span at which the profile exceeds its cap, or the velocity of the block before it, most.
 pub(super) fn most_exceeded(
     blocks: &[Outline],
@@ -277,6 +269,7 @@ mod tests {
     use crate::cap::SpeedLimit;
     use crate::example::{Arc, block};
     use crate::lookahead::outline::follow;
+    use crate::queue::Queued;
     use kontur_filters::time::CycleTime;
     use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! Acceleration, cruise and braking over one length.
 
-use super::phase::Phase;
-use super::row::{Profile, State};
+use super::phase::{Phase, State};
+use super::row::Profile;
 
 /// The peak of a plan and the length it belongs to.
 #[derive(Clone, Copy, Debug)]

@@ -2,11 +2,23 @@
 
 use super::ramp::{RampShape, RampState};
 use super::roots::increasing_root;
-use super::row::State;
 use std::f64::consts::FRAC_1_PI;
 
 /// Relative size of the last step to a root; the error is its square.
 const ROOT: f64 = 1e-9;
+
+/// State of the path coordinate at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct State {
+    /// Path length since the start of the profile in mm.
+    pub s_mm: f64,
+    /// Path velocity in mm/s.
+    pub v_mm_s: f64,
+    /// Path acceleration in mm/s2.
+    pub a_mm_s2: f64,
+    /// Path jerk in mm/s3; 0 where the acceleration jumps.
+    pub j_mm_s3: f64,
+}
 
 /// A phase in which the acceleration follows one ramp or is constant, from its state at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,25 +1,12 @@
 //! The speed over a path length: a row of phases, from any planner.
 
-use super::phase::Phase;
+use super::phase::{Phase, State};
 use smallvec::SmallVec;
 use std::ops::Deref;
 use std::sync::Arc;
 
 /// Phases of a profile of TRAPEZ, SIN2 and HSC: two legs of three phases and a cruise.
 const USUAL_PHASES: usize = 7;
-
-/// State of the path coordinate at one time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct State {
-    /// Path length since the start of the profile in mm.
-    pub s_mm: f64,
-    /// Path velocity in mm/s.
-    pub v_mm_s: f64,
-    /// Path acceleration in mm/s2.
-    pub a_mm_s2: f64,
-    /// Path jerk in mm/s3; 0 where the acceleration jumps.
-    pub j_mm_s3: f64,
-}
 
 /// A speed that is never negative, in phases of constant jerk or of one sine-square ramp each.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,9 +6,9 @@
 //! interrupted halfway has no defined shape (Assumption: the documents only describe ramps from zero). The jerk of a
 //! SIN2 slope, which is `π/2` times as large in the middle of its ramps, is therefore never exceeded.
 
-use super::phase::Phase;
+use super::phase::{Phase, State};
 use super::ramp::RampShape;
-use super::row::{Profile, State};
+use super::row::Profile;
 use super::slope::SlopeLimits;
 use super::step::StepLimits;
 

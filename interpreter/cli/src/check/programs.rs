@@ -1,6 +1,6 @@
 //! The programs to be checked: files as given, and the contents of folders.
 
-use crate::Error;
+use crate::error::Error;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

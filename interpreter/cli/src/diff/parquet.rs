@@ -1,6 +1,6 @@
 //! The rows of a Parquet trace as the cells of a table.
 
-use crate::Error;
+use crate::error::Error;
 use csv::ByteRecord;
 use parquet::basic::{LogicalType, Type as Physical};
 use parquet::file::metadata::{ParquetMetaData, RowGroupMetaData};
@@ -120,7 +120,7 @@ impl Rows {
 #[cfg(test)]
 mod tests {
     use super::Rows;
-    use crate::Error;
+    use crate::error::Error;
     use csv::ByteRecord;
     use parquet::basic::{Encoding, Repetition, Type as Physical};
     use parquet::data_type::DoubleType;

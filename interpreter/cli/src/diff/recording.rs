@@ -9,8 +9,8 @@ mod signals;
 
 use super::table::Table;
 use super::verdict::{Failure, Signal, Verdict};
-use crate::Error;
 use crate::args::{Pairing, Tolerance};
+use crate::error::Error;
 use crate::recorded::{self, DropOut};
 use serde::Serialize;
 use signals::{MOST_CYCLES, Recorded, Trace, rows, statistics};

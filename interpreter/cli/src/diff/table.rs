@@ -1,6 +1,6 @@
 //! Source of the rows of a comparison: a CSV or Parquet file, or a fresh run.
 
-use crate::Error;
+use crate::error::Error;
 use crate::trace::batch::{Batch, Numbers};
 use crate::trace::csv::Rows;
 use crate::trace::fixed::Cells;

@@ -1,8 +1,8 @@
 //! The runs of a report.
 
-use crate::Error;
 use crate::args::ReportArgs;
 use crate::combinations::{combinations, put, values};
+use crate::error::Error;
 use crate::request::Request;
 
 /// Largest number of runs on a page or in a picture: twice the number of colours; a long one takes 25 MB.

@@ -3,10 +3,11 @@
 use super::curve::Curve;
 use crate::args::ResponseArgs;
 use crate::console::Console;
+use crate::error::Error;
 use crate::lists::Lists;
 use crate::request::Request;
+use crate::run;
 use crate::target::keep_apart;
-use crate::{Error, run};
 use kontur_filters::iir::AxisFilter;
 use kontur_filters::shaping::Shaping;
 use kontur_filters::time::CycleTime;

@@ -2,10 +2,10 @@
 
 use super::curve::Curve;
 use super::describe;
-use crate::Error;
 use crate::args::values::Numbers;
 use crate::args::{FILTER_TYPES, PROTOTYPES, ResponseArgs};
 use crate::console::Console;
+use crate::error::Error;
 use crate::table::number;
 use kontur_filters::fir::{FirConfig, FirKind, MAX_DELAY_ORDER, MAX_ORDER};
 use kontur_filters::hsc::{HscConfig, HscKind};

@@ -7,8 +7,8 @@ mod residual;
 mod step;
 
 use super::curve::Curve;
-use crate::Error;
 use crate::args::ResponseArgs;
+use crate::error::Error;
 use kontur_filters::time::CycleTime;
 
 pub(super) use answer::Answer;

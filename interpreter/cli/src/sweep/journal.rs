@@ -5,8 +5,8 @@
 //! again.
 
 use super::rows::Row;
-use crate::Error;
 use crate::args::SweepArgs;
+use crate::error::Error;
 use crate::files::is_standard;
 use serde::{Deserialize, Serialize};
 use std::fs::File;

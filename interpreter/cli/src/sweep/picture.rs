@@ -2,11 +2,11 @@
 
 use super::Vary;
 use super::rows::Rows;
-use crate::Error;
 use crate::args::SweepArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around, of_column};
 use crate::chart::view::{Line, Points, View};
+use crate::error::Error;
 use crate::table::Cell;
 use kontur_interpreter::summary::State;
 

@@ -3,9 +3,9 @@
 use super::idle::idle;
 use super::one::{Failure, row};
 use super::rows::Row;
-use crate::Error;
 use crate::args::SweepArgs;
 use crate::combinations::combinations;
+use crate::error::Error;
 use crate::request::OpenError;
 use crate::table::Cell;
 

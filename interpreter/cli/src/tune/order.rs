@@ -2,8 +2,8 @@
 
 use super::task::Answer;
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::table::{Cell, Table, number};
-use crate::{Error, Exit};
 
 use kontur_filters::analysis::order::largest_order;
 use kontur_filters::fir::{FirConfig, FirKind};

@@ -11,11 +11,11 @@
 use super::task::{Answer, Row, Task, command};
 use crate::args::TuneArgs;
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::request::{OpenError, Opened, Request};
 use crate::run::{Shown, announce_lists, drive};
 use crate::table::{Cell, Table, number};
 use crate::target::keep_apart;
-use crate::{Error, Exit};
 use kontur_filters::analysis::tuning::Choice;
 use kontur_interpreter::diag::Location;
 use kontur_interpreter::job::{Facts, ForcedGuard, GuardCommands};

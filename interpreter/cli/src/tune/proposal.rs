@@ -3,8 +3,8 @@
 use super::combined;
 use super::task::{Answer, Row, Task, command};
 use crate::console::Console;
+use crate::error::{Error, Exit};
 use crate::table::{Cell, Table, number};
-use crate::{Error, Exit};
 
 impl Task {
     /// The proposal and its numbers.

@@ -2,9 +2,9 @@
 //! files.
 
 use super::vibration::{Analysis, Estimate, Focus, Lasting, Mode, analyse};
-use crate::Error;
 use crate::args::TuneArgs;
 use crate::console::Console;
+use crate::error::Error;
 use crate::recorded::{self, Even};
 use crate::table::{Table, number};
 use std::ops::Range;

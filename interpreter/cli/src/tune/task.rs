@@ -1,7 +1,7 @@
 //! The modes to choose from for a vibration, each with its residual vibration, and the proposed command.
 
 use super::vibration::Mode;
-use crate::Exit;
+use crate::error::Exit;
 use crate::table::{Table, number};
 use kontur_filters::analysis::tuning::{Choice, VibrationBand};
 use kontur_filters::time::CycleTime;

@@ -15,8 +15,10 @@ Options have the names of the command line's (``kontur run --help``): ``--max-ti
 from importlib.metadata import version
 
 from ._answers import Tuning, check, explain, response, tune
-from ._errors import Diagnostic, Error, InputsError, ListsError, ProgramError, UsageError
-from ._run import DEFAULT_SIGNALS, Run, Simulation, run, start
+from ._errors import Error, InputsError, ListsError, ProgramError, UsageError
+from ._messages import Diagnostic
+from ._result import Run
+from ._run import DEFAULT_SIGNALS, Simulation, run, start
 from ._sweep import sweep
 from ._table import Table
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _kontur
-from ._errors import Diagnostic
+from ._messages import Diagnostic
 from ._table import Table
 from ._words import (
     Options,

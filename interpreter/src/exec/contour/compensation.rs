@@ -123,21 +123,41 @@ impl Compensator {
 
     fn next(&mut self, motion: Box<Motion>, out: &mut Vec<Item>) -> Fallible<()> {
         self.tangential |= motion.tangential;
-        if let Some(mut closed) = self.closed.take() {
-            let Some(motion) = closed.gather(motion)? else {
-                self.closed = Some(closed);
-                return Ok(());
-            };
-            if !motion.block.path.is_straight() {
-                return Err(circular(&motion));
-            }
-            let (at, cut) = closed.close(out)?;
-            self.found(cut);
-            return self.select(motion, Some((at, None)), out);
+        if let Some(closed) = self.closed.take() {
+            return self.next_of_closed(closed, motion, out);
         }
-        let Some(active) = self.active.take() else {
-            return self.select(motion, None, out);
+        match self.active.take() {
+            Some(active) => self.next_of(active, motion, out),
+            None => self.select(motion, None, out),
+        }
+    }
+
+    /// A motion of a closed contour, or the first one after it.
+    fn next_of_closed(
+        &mut self,
+        mut closed: Box<Closed>,
+        motion: Box<Motion>,
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        let Some(motion) = closed.gather(motion)? else {
+            self.closed = Some(closed);
+            return Ok(());
         };
+        if !motion.block.path.is_straight() {
+            return Err(circular(&motion));
+        }
+        let (at, cut) = closed.close(out)?;
+        self.found(cut);
+        self.select(motion, Some((at, None)), out)
+    }
+
+    /// A motion while compensation is active.
+    fn next_of(
+        &mut self,
+        active: Box<Active>,
+        motion: Box<Motion>,
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
         if active.tilt != motion.tilt {
             let what = "a change of the coordinate system during tool radius compensation";
             return Err(Fault::unsupported(what, motion.span));
@@ -150,50 +170,51 @@ impl Compensator {
             let what = "G05 with a change of side or radius, or after G237";
             return Err(Fault::unsupported(what, motion.span));
         }
-        let same = motion
-            .compensation
-            .is_some_and(|c| c.distance_mm.to_bits() == active.distance.to_bits());
-        if same {
-            let mut found = None;
-            let next = active.join(motion, side, out, &mut found)?;
-            self.active = Some(Box::new(next));
-            self.found(found);
-            return Ok(());
-        }
-        if motion
-            .compensation
-            .is_some_and(|c| c.reverse && c.distance_mm.to_bits() == (-active.distance).to_bits())
-            && !active.last.course.approaches()
-            && runs_back(&active.last.side, &side)
-        {
-            let mut found = None;
-            self.active = Some(Box::new(active.turn_back(motion, side, out, &mut found)?));
-            self.found(found);
-            return Ok(());
-        }
-        if let Some(c) = motion.compensation
-            && c.distance_mm * active.distance >= 0.0
-        {
-            let (distance, mut found) = (c.distance_mm, None);
-            let next = if c.perpendicular_change {
-                active.change_across(motion, side, distance, out, &mut found)?
-            } else if matches!(side, Side::Line { .. }) {
-                active.change_along(motion, side, distance, out, &mut found)?
-            } else {
-                let text =
-                    "the tool radius changes before an arc: a straight motion must lead to it";
-                return Err(Fault::new(Condition::RadiusChangeInArc, text, motion.span)
-                    .in_block(motion.source));
-            };
-            self.active = Some(Box::new(next));
-            self.found(found);
-            return Ok(());
-        }
-        // a different side, or none: connected by a line
-        if active.perpendicular
-            || motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular)
-        {
-            let mut found = None;
+        let mut found = None;
+        let next = match motion.compensation {
+            Some(c) if c.distance_mm.to_bits() == active.distance.to_bits() => {
+                active.join(motion, side, out, &mut found)?
+            }
+            Some(c)
+                if c.reverse
+                    && c.distance_mm.to_bits() == (-active.distance).to_bits()
+                    && !active.last.course.approaches()
+                    && runs_back(&active.last.side, &side) =>
+            {
+                active.turn_back(motion, side, out, &mut found)?
+            }
+            Some(c) if c.distance_mm * active.distance >= 0.0 => {
+                let distance = c.distance_mm;
+                if c.perpendicular_change {
+                    active.change_across(motion, side, distance, out, &mut found)?
+                } else if matches!(side, Side::Line { .. }) {
+                    active.change_along(motion, side, distance, out, &mut found)?
+                } else {
+                    let text =
+                        "the tool radius changes before an arc: a straight motion must lead to it";
+                    return Err(Fault::new(Condition::RadiusChangeInArc, text, motion.span)
+                        .in_block(motion.source));
+                }
+            }
+            _ => return self.connect(active, motion, &side, tangential, out),
+        };
+        self.active = Some(Box::new(next));
+        self.found(found);
+        Ok(())
+    }
+
+    /// Leaves the contour for another side of it, or for none: connected by a line.
+    fn connect(
+        &mut self,
+        active: Box<Active>,
+        motion: Box<Motion>,
+        side: &Side,
+        tangential: bool,
+        out: &mut Vec<Item>,
+    ) -> Fallible<()> {
+        let mut found = None;
+        let across = motion.compensation.is_some_and(|c| c.selection == Selection::Perpendicular);
+        if active.perpendicular || across {
             active.return_to_contour(out, &mut found)?;
             self.found(found);
             return self.select(motion, None, out);
@@ -202,7 +223,6 @@ impl Compensator {
             return Err(circular(&motion));
         }
         let away = tangential.then(|| active.last.side.tangent(true));
-        let mut found = None;
         let at = active.finish(out, &mut found)?;
         self.found(found);
         self.select(motion, Some((at, away)), out)

@@ -74,7 +74,7 @@ impl Executor {
 
     /// Whether one more level may be entered; if not, reports an error.
     fn has_room(&mut self, local: bool, span: Span) -> bool {
-        let room = self.levels.len() < LEVELS_MAX;
+        let room = self.levels.has_room();
         if !room {
             let condition = if local { Condition::Nesting } else { Condition::SubroutineNesting };
             let fault = Fault::new(condition, too_deep(), span);

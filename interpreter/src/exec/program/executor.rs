@@ -9,9 +9,10 @@ mod run;
 use self::budget::Budget;
 use self::found::Found;
 use super::files::Files;
+use super::level::Levels;
 use super::places::position;
 use super::reached::Reached;
-use super::state::{Level, Sequences, Target};
+use super::state::{Sequences, Target};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
 use crate::exec::options::{GuardCommands, Options, SkipLevels};
@@ -43,7 +44,7 @@ pub(crate) struct Executor {
     pub(in crate::exec::program) sources: Arc<dyn Sources>,
     pub(in crate::exec::program) parser: Parser,
     pub(in crate::exec::program) files: Files,
-    pub(in crate::exec::program) levels: Vec<Level>,
+    pub(in crate::exec::program) levels: Levels,
     /// Block numbers for `L SEQUENCE`.
     pub(in crate::exec::program) sequences: Sequences,
     pub(in crate::exec::program) skip: SkipLevels,
@@ -104,7 +105,7 @@ impl Executor {
             decoder,
             sources,
             files: Files::new(asynchronous),
-            levels: Vec::new(),
+            levels: Levels::default(),
             sequences: Sequences::default(),
             skip,
             state: State::Running,

@@ -6,10 +6,9 @@
 mod loops;
 
 use super::executor::Executor;
-use super::index::{EntryId, Keyword};
+use super::index::{EntryId, Index, Keyword};
 use super::reads::Reads;
-use super::state::{Counter, Frame};
-use crate::diag::{Condition, ValueKind};
+use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::exec::report::Subject;
@@ -19,6 +18,17 @@ use std::sync::Arc;
 
 /// Values closer than this are equal in `$SWITCH`. Source: TF5200 programming manual.
 const SWITCH_TOLERANCE: f64 = crate::exec::values::number::NEARLY;
+
+/// The clause at which `$SWITCH` continues.
+enum Clause {
+    /// The first equal case, with the position after it.
+    Case(Position),
+    /// The position of `$DEFAULT`.
+    Default(Position),
+    Missing,
+    /// An error ended the program before it was found.
+    Unknown,
+}
 
 impl Executor {
     /// Executes a control statement listed in the index as `id`.
@@ -37,7 +47,7 @@ impl Executor {
             ControlKind::If { condition, goto: None } => self.if_block(condition, id, span),
             ControlKind::ElseIf(_) | ControlKind::Else => self.skip_clauses(id, span),
             ControlKind::EndIf | ControlKind::EndSwitch => {
-                self.pop_frame_of(id);
+                self.levels.close(id);
                 Ok(())
             }
             ControlKind::Switch { target, value } => self.switch(target.as_ref(), value, id, span),
@@ -70,86 +80,26 @@ impl Executor {
         self.decoder.report.keep(outcome).unwrap_or(false)
     }
 
-    /// Continues at a position.
-    fn jump_to(&mut self, position: Position) {
-        if let Some(level) = self.levels.last_mut() {
-            level.at = position;
-        }
-    }
-
     /// Continues after the block at a position.
     pub(in crate::exec) fn jump_behind(&mut self, position: Position) {
         let Some(level) = self.levels.last() else { return };
         let file = level.file;
         if let Some((_, next)) = self.fetch(file, position) {
-            self.jump_to(next);
+            self.levels.jump_to(next);
         }
     }
 
-    pub(in crate::exec) fn skip_to_level_end(&mut self) {
-        if let Some(level) = self.levels.last_mut() {
-            level.at = Position { offset: level.end.max(level.at.offset), line: level.at.line };
-            level.end = level.end.min(level.at.offset);
+    /// Continues after the closing statement of a structure; without one, the structure covers the rest of the text.
+    pub(in crate::exec::program) fn jump_behind_end(&mut self, end: Option<Position>) {
+        match end {
+            Some(end) => self.jump_behind(end),
+            None => self.levels.skip_unclosed(),
         }
-    }
-
-    /// A structure without an end covers the rest of the text; a missing M30 is not reported in addition.
-    pub(in crate::exec::program) fn skip_unclosed(&mut self) {
-        self.skip_to_level_end();
-        if let Some(level) = self.levels.last_mut() {
-            level.cut = true;
-        }
-    }
-
-    fn position_of(&self, id: Option<EntryId>) -> Option<Position> {
-        let level = self.levels.last()?;
-        id.map(|id| level.index.entry(id).position)
-    }
-
-    fn push_frame(&mut self, id: EntryId, counter: Option<Counter>) {
-        let Some(level) = self.levels.last_mut() else { return };
-        let keyword = level.index.entry(id).keyword;
-        let first_loop = keyword.is_loop() && !level.frames.iter().any(|f| f.keyword.is_loop());
-        level.frames.push(Frame { open: id, keyword, counter: counter.map(Arc::new) });
-        if first_loop {
-            self.files.make_room();
-        }
-    }
-
-    /// Closes the structure to which a clause or closing statement belongs, and everything inside it.
-    fn pop_frame_of(&mut self, id: EntryId) {
-        let Some(level) = self.levels.last_mut() else { return };
-        let open = level.index.entry(id).open;
-        if let Some(depth) = level.frames.iter().rposition(|f| Some(f.open) == open) {
-            level.frames.truncate(depth);
-        }
-    }
-
-    /// 21500, 21501, 21502: the closing statement is missing; the rest of the level is ignored.
-    fn unclosed(&mut self, id: EntryId, span: Span) -> Box<Fault> {
-        self.skip_unclosed();
-        let Some(level) = self.levels.last() else {
-            return Fault::new(Condition::OpenIfMain, "open control block", span);
-        };
-        let keyword = level.index.entry(id).keyword;
-        let closer = keyword.closer().map_or("", Keyword::text);
-        let condition = match (level.index.sections[level.section].local, self.levels.len()) {
-            (true, _) => Condition::OpenIfLocal,
-            (false, 1) => Condition::OpenIfMain,
-            (false, _) => Condition::OpenIfGlobal,
-        };
-        let text = format!("{} without {closer}", keyword.text());
-        let hint = format!("write {closer} before the end of its program or subroutine");
-        Fault::new(condition, text, span).hint(hint).with(|d| {
-            d.value(ValueKind::Current, 1.0, "-")
-                .value(ValueKind::State, keyword.text(), "-")
-                .value(ValueKind::Expected, closer, "-")
-        })
     }
 
     fn if_block(&mut self, condition: &Expr, id: EntryId, span: Span) -> Outcome<()> {
         if self.test(condition) {
-            self.push_frame(id, None);
+            self.levels.open(id, None, &mut self.files);
             return Ok(());
         }
         self.next_clause(id, span)
@@ -161,7 +111,7 @@ impl Executor {
         loop {
             let Some(level) = self.levels.last() else { return Ok(()) };
             let Some(next) = level.index.entry(at).next else {
-                return Err(self.unclosed(id, span));
+                return Err(self.levels.unclosed(id, span));
             };
             let (keyword, position) =
                 (level.index.entry(next).keyword, level.index.entry(next).position);
@@ -188,14 +138,14 @@ impl Executor {
                 },
                 (_, Keyword::Else) => true,
                 (_, Keyword::EndIf) => {
-                    self.jump_to(behind);
+                    self.levels.jump_to(behind);
                     return Ok(());
                 }
                 _ => false,
             };
             if taken {
-                self.push_frame(id, None);
-                self.jump_to(behind);
+                self.levels.open(id, None, &mut self.files);
+                self.levels.jump_to(behind);
                 return Ok(());
             }
         }
@@ -209,8 +159,8 @@ impl Executor {
             // an unmatched clause has already been reported
             (None, _) => Ok(()),
             (Some(open), None) => {
-                self.pop_frame_of(clause);
-                Err(self.unclosed(open, span))
+                self.levels.close(clause);
+                Err(self.levels.unclosed(open, span))
             }
             (Some(_), Some(_)) => {
                 self.leave_structure(clause);
@@ -222,12 +172,9 @@ impl Executor {
     /// Continues after the structure.
     fn leave_structure(&mut self, id: EntryId) {
         let Some(level) = self.levels.last() else { return };
-        let end = level.index.entry(id).end;
-        self.pop_frame_of(id);
-        match self.position_of(end) {
-            Some(end) => self.jump_behind(end),
-            None => self.skip_unclosed(),
-        }
+        let end = level.end_of(id);
+        self.levels.close(id);
+        self.jump_behind_end(end);
     }
 
     fn switch(
@@ -252,11 +199,34 @@ impl Executor {
         let Some(level) = self.levels.last() else { return Ok(()) };
         let (file, index) = (level.file, Arc::clone(&level.index));
         if index.entry(id).end.is_none() {
-            return Err(self.unclosed(id, span));
+            return Err(self.levels.unclosed(id, span));
         }
         if let Some(first) = index.entry(id).next.map(|clause| index.entry(clause).position) {
             self.before_clauses(file, first, span);
         }
+        match self.clause(file, &index, id, &value)? {
+            Clause::Case(behind) => {
+                self.levels.open(id, None, &mut self.files);
+                self.levels.jump_to(behind);
+            }
+            Clause::Default(at) => {
+                self.levels.open(id, None, &mut self.files);
+                self.jump_behind(at);
+            }
+            Clause::Missing => self.leave_structure(id),
+            Clause::Unknown => {}
+        }
+        Ok(())
+    }
+
+    /// Evaluates the cases of `$SWITCH` until one is equal to its value.
+    fn clause(
+        &mut self,
+        file: usize,
+        index: &Index,
+        id: EntryId,
+        value: &Value,
+    ) -> Outcome<Clause> {
         let mut default = None;
         let mut at = index.entry(id).next;
         while let Some(clause) = at {
@@ -266,33 +236,24 @@ impl Executor {
                 Keyword::Default => default = Some(entry.position),
                 Keyword::Case => {
                     let Some((parsed, behind)) = self.fetch(file, entry.position) else {
-                        return Ok(());
+                        return Ok(Clause::Unknown);
                     };
                     let Body::Control(control) = &parsed.block.body else { continue };
                     let ControlKind::Case(case) = &control.kind else { continue };
                     if !self.rests_before(parsed.reads.external) {
-                        return Ok(());
+                        return Ok(Clause::Unknown);
                     }
                     let here = std::mem::replace(&mut self.position, entry.position);
-                    let equal = matches(&value, &self.decoder.value(case)?);
+                    let equal = matches(value, &self.decoder.value(case)?);
                     self.position = here;
                     if equal {
-                        self.push_frame(id, None);
-                        self.jump_to(behind);
-                        return Ok(());
+                        return Ok(Clause::Case(behind));
                     }
                 }
                 _ => {}
             }
         }
-        match default {
-            Some(default) => {
-                self.push_frame(id, None);
-                self.jump_behind(default);
-            }
-            None => self.leave_structure(id),
-        }
-        Ok(())
+        Ok(default.map_or(Clause::Missing, Clause::Default))
     }
 
     /// Blocks between `$SWITCH` and its first clause do not belong to any case.

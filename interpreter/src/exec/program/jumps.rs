@@ -10,21 +10,12 @@
 //! Source: TF5200 programming manual, `$GOTO` (206915851) and ends of subroutines (206781707).
 
 use super::executor::Executor;
-use super::index::{EntryId, Keyword, LABEL_MAX, LabelPlace};
-use super::state::Frame;
+use super::index::{LABEL_MAX, LabelPlace};
+use super::level::Landing;
 use crate::diag::{Condition, ValueKind};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
 use crate::syntax::ast::{Jump, JumpKind, LabelKind, Return, ReturnLevel, Span};
-
-/// The checked target of a jump.
-struct Landing {
-    place: LabelPlace,
-    /// Open control blocks that stay open.
-    depth: usize,
-    /// Branches entered, the innermost first.
-    entered: Vec<EntryId>,
-}
 
 impl Executor {
     /// The label of a jump; a computed number is rounded like that of a block (206817035).
@@ -67,68 +58,10 @@ impl Executor {
                 return Err(Fault::new(Condition::Label, text, jump.span).hint(hint));
             };
             let from = self.position.offset;
-            self.landing((level, from), place, &format!("label {}", shown(&label)), jump.span)
+            part.landing(from, place, &format!("label {}", shown(&label)), jump.span)
         });
         if let Some(landing) = self.decoder.report.keep(outcome) {
-            self.land(landing, self.position.offset);
-        }
-    }
-
-    /// Checks a position of a level as the target of a jump from the block at offset `from`.
-    fn landing(
-        &self,
-        (level, from): (usize, u64),
-        place: LabelPlace,
-        name: &str,
-        span: Span,
-    ) -> Outcome<Landing> {
-        let level = &self.levels[level];
-        // structures around the position that are not open, the innermost first
-        let mut entered = Vec::new();
-        let mut around = place.parent;
-        let depth = loop {
-            let Some(id) = around else { break 0 };
-            if let Some(depth) = level.frames.iter().rposition(|f| f.open == id) {
-                break depth + 1;
-            }
-            entered.push(id);
-            around = level.index.entry(id).parent;
-        };
-        let keyword = |id: &EntryId| level.index.entry(*id).keyword;
-        let closed = entered.iter().map(keyword).find(|k| *k != Keyword::If);
-        let conditional = || {
-            let into = level.index.enters_conditional(from, place.position.offset);
-            into.then_some(Keyword::ConditionalIf)
-        };
-        let Some(closed) = closed.or_else(conditional) else {
-            return Ok(Landing { place, depth, entered });
-        };
-        let text = format!("{name} is inside {}", closed.text());
-        let condition =
-            if closed.is_loop() { Condition::JumpIntoLoop } else { Condition::LabelInto };
-        Err(Fault::new(condition, text, span))
-    }
-
-    /// Continues the current level at the target; `from` is the offset of the block that contains the jump.
-    fn land(&mut self, landing: Landing, from: u64) {
-        let Some(level) = self.levels.last_mut() else { return };
-        let Landing { place, depth, entered } = landing;
-        level.frames.truncate(depth);
-        // a branch of $IF is entered as if its condition had been true
-        level.frames.extend(entered.iter().rev().map(|id| Frame {
-            open: *id,
-            keyword: Keyword::If,
-            counter: None,
-        }));
-        level.at = place.position;
-        // a jump back forms a loop: its blocks are parsed once
-        let to = place.position.offset;
-        if to <= from {
-            let known = level.again.unwrap_or((to, from));
-            let again = (known.0.min(to), known.1.max(from));
-            if level.again.replace(again) != Some(again) {
-                self.files.make_room();
-            }
+            self.levels.land(landing, self.position.offset, &mut self.files);
         }
     }
 
@@ -140,7 +73,7 @@ impl Executor {
         match (landing, self.levels.last(), then) {
             (Some(landing), Some(level), _) => {
                 let from = level.at.offset;
-                self.land(landing, from);
+                self.levels.land(landing, from, &mut self.files);
             }
             (_, _, Some(closing)) => self.close(closing),
             _ => {}
@@ -180,7 +113,7 @@ impl Executor {
             LabelKind::Name(_) => format!("label {}", shown(&label)),
         };
         let from = self.levels[level].at.offset;
-        Ok((levels, Some(self.landing((level, from), place, &name, jump.span)?)))
+        Ok((levels, Some(self.levels[level].landing(from, place, &name, jump.span)?)))
     }
 
     /// A label of a level, otherwise the block with this number.
@@ -191,8 +124,10 @@ impl Executor {
         }
         let program = self.program_of(level);
         if let LabelKind::Number(number) = label {
-            self.learn_numbers(file, section, span)?;
-            if let Some(place) = self.numbered(file, section, *number, span) {
+            self.sequences.learn(&mut self.files, (file, section), span)?;
+            let report = &mut self.decoder.report;
+            let place = self.sequences.find((file, section), *number, span, report);
+            if let Some(place) = place {
                 return Ok(place);
             }
             let text = format!("{program} has neither a label nor a block N{number}");

@@ -1,12 +1,12 @@
 //! Program levels: start and end of programs, subroutines and cycles.
 
 use super::executor::Executor;
-use super::state::{Closing, Level, Passed, Target};
+use super::level::Level;
+use super::state::{Closing, Passed, Target};
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::exec::fault::Fault;
 use crate::exec::step::EndReason;
 use crate::machine::table::channel as of;
-use crate::source::Position;
 use crate::syntax::ast::Span;
 use std::sync::Arc;
 
@@ -16,7 +16,6 @@ impl Executor {
         let Target { file, section } = target;
         let index = Arc::clone(&self.files.file(file).index);
         let part = &index.sections[section];
-        let (at, end) = (part.start, part.end);
         let info = &mut self.decoder.calls.info;
         info.file = Arc::clone(&self.files.file(file).name);
         info.program = part.name.clone().unwrap_or_else(|| Arc::clone(&info.file));
@@ -28,30 +27,13 @@ impl Executor {
         if caller.is_some() {
             self.decoder.values.variables.enter_level();
         }
-        self.levels.push(Level {
-            file,
-            section,
-            index,
-            at,
-            end,
-            frames: Vec::new(),
-            cycle: saved,
-            declarations: false,
-            undeclared: false,
-            optional: None,
-            cut: false,
-            again: None,
-            caller,
-            begin: Position::START,
-            passes: 0,
-            then: None,
-        });
+        self.levels.enter(Level::new(target, index, saved, caller));
         self.decoder.calls.info.level = u32::try_from(self.levels.len()).unwrap_or(u32::MAX);
     }
 
     /// Leaves a subroutine.
     fn pop_level(&mut self) {
-        let Some(level) = self.levels.pop() else { return };
+        let Some(level) = self.levels.leave() else { return };
         self.decoder.values.variables.leave_level();
         if let Some(before) = level.cycle {
             self.decoder.values.variables.leave_cycle();
@@ -101,18 +83,14 @@ impl Executor {
     /// Called at the end of the text of a level.
     pub(in crate::exec) fn level_ends(&mut self) {
         self.open_blocks();
-        if let Some(level) = self.levels.last_mut()
-            && level.passes > 0
-        {
-            level.passes -= 1;
-            level.at = level.begin;
+        if self.levels.current_mut().is_some_and(Level::begin_again) {
             return;
         }
         if self.levels.len() > 1 {
             self.leave_level();
             return;
         }
-        let cut = self.levels.last().is_some_and(|level| level.cut || level.undeclared);
+        let cut = self.levels.last().is_some_and(Level::is_open_ended);
         if !cut && !self.end_program_called {
             let text = "the main program ends without M30 or M02";
             let mut diagnostic = Diagnostic::new(Condition::NoEnd, text);
@@ -133,10 +111,8 @@ impl Executor {
             while self.levels.len() > 1 {
                 self.pop_level();
             }
-            if let Some(main) = self.levels.last_mut() {
-                main.frames.clear();
-            }
-            self.skip_to_level_end();
+            self.levels.close_all();
+            self.levels.skip_to_end();
             self.call_of_list(&name, of::END_PROGRAM, Span::default());
             return;
         }
@@ -163,7 +139,7 @@ impl Executor {
 
     /// 21719: `#OPTIONAL EXECUTION ON` is not ended on its level (255789707).
     fn optional_at_end(&mut self) {
-        let Some(level) = self.levels.last_mut() else { return };
+        let Some(level) = self.levels.current_mut() else { return };
         let Some((at, span)) = level.optional.take() else { return };
         let text = "#OPTIONAL EXECUTION ON without OFF before the end of its program";
         let diagnostic = Diagnostic::new(Condition::OptionalOpen, text);
@@ -177,18 +153,13 @@ impl Executor {
     /// 20375: control blocks were entered and have no end.
     fn open_blocks(&mut self) {
         self.optional_at_end();
-        let Some(level) = self.levels.last() else { return };
-        let open: Vec<_> = level
-            .frames
-            .iter()
-            .filter(|f| level.index.entry(f.open).end.is_none())
-            .map(|f| (f.keyword, level.index.entry(f.open)))
-            .collect();
-        let Some((keyword, entry)) = open.first().copied() else { return };
+        let endless = self.levels.last().and_then(Level::endless);
+        let Some((entry, count)) = endless else { return };
+        let keyword = entry.keyword;
         let closer = keyword.closer().map_or("", super::index::Keyword::text);
         let text = format!("{} is not closed by {closer}", keyword.text());
         let diagnostic = Diagnostic::new(Condition::OpenControlAtEnd, text)
-            .value(ValueKind::Current, open.len() as f64, "-")
+            .value(ValueKind::Current, count as f64, "-")
             .value(ValueKind::State, keyword.text(), "-")
             .value(ValueKind::Expected, closer, "-");
         let location = self.place(entry.position, entry.span);

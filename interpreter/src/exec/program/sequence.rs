@@ -8,16 +8,17 @@
 //!
 //! Source: TF5200 programming manual, calling block sequences; 21696.
 
-use super::calls::{LEVELS_MAX, too_deep};
+use super::calls::too_deep;
 use super::executor::Executor;
+use super::files::Files;
 use super::index::LabelPlace;
-use super::state::Target;
+use super::state::{Sequences, Target};
 use crate::diag::Condition;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::options::Value;
-use crate::exec::report::Subject;
+use crate::exec::report::{Report, Subject};
 use crate::exec::values::number::whole;
-use crate::syntax::ast::{Group, Ident, ItemKind, ItemValue, LabelKind, Span};
+use crate::syntax::ast::{Group, Ident, Item, ItemKind, ItemValue, LabelKind, Span};
 
 /// Contents of the bracket.
 #[derive(Default)]
@@ -39,7 +40,7 @@ impl Executor {
 
     fn sequence(&mut self, group: &Group) -> Outcome<()> {
         let words = self.sequence_words(group)?;
-        if self.levels.len() >= LEVELS_MAX {
+        if !self.levels.has_room() {
             let text = too_deep();
             return Err(Fault::new(Condition::SubroutineNesting, text, group.span));
         }
@@ -55,9 +56,10 @@ impl Executor {
             let text = "L SEQUENCE needs the number of its first block";
             return Err(Fault::new(Condition::TokenUnknown, text, group.span));
         };
-        self.learn_numbers(file, section, group.span)?;
+        self.sequences.learn(&mut self.files, (file, section), group.span)?;
         let mut place = |number: u64, span: Span| {
-            self.numbered(file, section, number, span).ok_or_else(|| {
+            let report = &mut self.decoder.report;
+            self.sequences.find((file, section), number, span, report).ok_or_else(|| {
                 let text = format!("the program has no block N{number}");
                 Fault::new(Condition::Label, text, span)
             })
@@ -80,68 +82,17 @@ impl Executor {
             _ => behind.offset,
         };
         self.push_level(Target { file, section }, None);
-        if let Some(level) = self.levels.last_mut() {
-            (level.at, level.end) = (start, end);
-            level.passes = words.repeat.map_or(0, |n| n - 1);
-            level.begin = start;
+        if let Some(level) = self.levels.current_mut() {
+            level.restrict(start, end, words.repeat.unwrap_or(1));
         }
         Ok(())
     }
 
     fn sequence_words(&mut self, group: &Group) -> Outcome<Words> {
         let mut words = Words::default();
-        let wrong = |span| {
-            let text = "L SEQUENCE: NAME=.., N.., N.., REPEAT=.. and ENDTAG are expected";
-            Fault::new(Condition::TokenUnknown, text, span)
-        };
         for item in &group.items {
-            let number = match &item.kind {
-                ItemKind::Missing => continue,
-                ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("REPEAT") => {
-                    let passes = self.decoder.whole(expr, "REPEAT", 1, u32::MAX)?;
-                    if words.repeat.replace(passes).is_some() {
-                        let text = "REPEAT twice";
-                        return Err(Fault::new(Condition::SequenceTwice, text, item.span));
-                    }
-                    continue;
-                }
-                ItemKind::Flag(word) if word.is("ENDTAG") => {
-                    if words.end_tag.replace(item.span).is_some() {
-                        let text = "ENDTAG twice";
-                        return Err(Fault::new(Condition::SequenceTwice, text, item.span));
-                    }
-                    continue;
-                }
-                ItemKind::Pair { key, value } if key.is("NAME") => {
-                    let name = match value {
-                        ItemValue::Name(name) => name.clone(),
-                        ItemValue::Expr(expr) => match self.decoder.value(expr)? {
-                            Value::Text(text) => Ident { text, span: expr.span },
-                            Value::Number(_) => return Err(wrong(expr.span)),
-                        },
-                        ItemValue::List(list) => return Err(wrong(list.span)),
-                    };
-                    if words.name.replace(name).is_some() {
-                        let text = "NAME twice";
-                        return Err(Fault::new(Condition::SequenceTwice, text, item.span));
-                    }
-                    continue;
-                }
-                ItemKind::Flag(word) => match word.split_number() {
-                    Some((name, number)) if name.eq_ignore_ascii_case("N") => number,
-                    Some((name, number)) if name.eq_ignore_ascii_case("REPEAT") => {
-                        let passes = whole(number, 1, u32::MAX).ok_or_else(|| wrong(item.span))?;
-                        words.repeat = Some(passes);
-                        continue;
-                    }
-                    _ => return Err(wrong(item.span)),
-                },
-                ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("N") => {
-                    self.decoder.number(expr)?
-                }
-                _ => return Err(wrong(item.span)),
-            };
-            let number = whole(number, 0, u32::MAX).ok_or_else(|| wrong(item.span))?;
+            let Some(number) = self.sequence_word(item, &mut words)? else { continue };
+            let number = whole(number, 0, u32::MAX).ok_or_else(|| unexpected(item.span))?;
             words.numbers.push((u64::from(number), item.span));
             if words.numbers.len() > 2 {
                 let text = "more than two block numbers";
@@ -151,14 +102,77 @@ impl Executor {
         Ok(words)
     }
 
-    /// Determines the block numbers of a program once, for `sequences`.
-    pub(super) fn learn_numbers(&mut self, file: usize, section: usize, span: Span) -> Outcome<()> {
-        if self.sequences.known.contains_key(&(file, section)) {
+    /// Reads one entry of the bracket; returns the value of a block number.
+    fn sequence_word(&mut self, item: &Item, words: &mut Words) -> Outcome<Option<f64>> {
+        match &item.kind {
+            ItemKind::Missing => {}
+            ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("REPEAT") => {
+                let passes = self.decoder.whole(expr, "REPEAT", 1, u32::MAX)?;
+                if words.repeat.replace(passes).is_some() {
+                    let text = "REPEAT twice";
+                    return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+                }
+            }
+            ItemKind::Flag(word) if word.is("ENDTAG") => {
+                if words.end_tag.replace(item.span).is_some() {
+                    let text = "ENDTAG twice";
+                    return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+                }
+            }
+            ItemKind::Pair { key, value } if key.is("NAME") => {
+                let name = match value {
+                    ItemValue::Name(name) => name.clone(),
+                    ItemValue::Expr(expr) => match self.decoder.value(expr)? {
+                        Value::Text(text) => Ident { text, span: expr.span },
+                        Value::Number(_) => return Err(unexpected(expr.span)),
+                    },
+                    ItemValue::List(list) => return Err(unexpected(list.span)),
+                };
+                if words.name.replace(name).is_some() {
+                    let text = "NAME twice";
+                    return Err(Fault::new(Condition::SequenceTwice, text, item.span));
+                }
+            }
+            ItemKind::Flag(word) => match word.split_number() {
+                Some((name, number)) if name.eq_ignore_ascii_case("N") => {
+                    return Ok(Some(number));
+                }
+                Some((name, number)) if name.eq_ignore_ascii_case("REPEAT") => {
+                    let passes = whole(number, 1, u32::MAX).ok_or_else(|| unexpected(item.span))?;
+                    words.repeat = Some(passes);
+                }
+                _ => return Err(unexpected(item.span)),
+            },
+            ItemKind::Pair { key, value: ItemValue::Expr(expr) } if key.is("N") => {
+                return self.decoder.number(expr).map(Some);
+            }
+            _ => return Err(unexpected(item.span)),
+        }
+        Ok(None)
+    }
+}
+
+fn unexpected(span: Span) -> Box<Fault> {
+    let text = "L SEQUENCE: NAME=.., N.., N.., REPEAT=.. and ENDTAG are expected";
+    Fault::new(Condition::TokenUnknown, text, span)
+}
+
+impl Sequences {
+    /// Determines the block numbers of a program once.
+    ///
+    /// # Errors
+    /// The file cannot be read, or has too many numbers in no order.
+    pub(super) fn learn(
+        &mut self,
+        files: &mut Files,
+        (file, section): (usize, usize),
+        span: Span,
+    ) -> Outcome<()> {
+        if self.known.contains_key(&(file, section)) {
             return Ok(());
         }
-        let name = std::sync::Arc::clone(&self.files.file(file).name);
-        let numbers = self
-            .files
+        let name = std::sync::Arc::clone(&files.file(file).name);
+        let numbers = files
             .numbers(file, section)
             .map_err(|error| Fault::new(Condition::NoFile, format!("{name}: {error}"), span))?;
         let numbers = numbers.ok_or_else(|| {
@@ -166,7 +180,7 @@ impl Executor {
             Fault::new(Condition::Nesting, text, span)
                 .hint("number the blocks of the program in ascending order")
         })?;
-        self.sequences.known.insert((file, section), numbers);
+        self.known.insert((file, section), numbers);
         Ok(())
     }
 
@@ -174,14 +188,14 @@ impl Executor {
     /// a note names them.
     ///
     /// Source: TF5200 programming manual 205952267 (the numbers have to be unambiguous).
-    pub(super) fn numbered(
-        &mut self,
-        file: usize,
-        section: usize,
+    pub(super) fn find(
+        &self,
+        (file, section): (usize, usize),
         number: u64,
         span: Span,
+        report: &mut Report,
     ) -> Option<LabelPlace> {
-        let numbers = self.sequences.known.get(&(file, section))?;
+        let numbers = self.known.get(&(file, section))?;
         let place = numbers.first.get(section, &LabelKind::Number(number))?;
         if let Some(second) = numbers.twice.get(&number) {
             let line = place.position.line;
@@ -190,7 +204,7 @@ impl Executor {
             );
             let fault = Fault::new(Condition::Odd, text, span).warning();
             let hint = "use each block number only once";
-            self.decoder.report.note_once(Subject::Block(number), fault.hint(hint));
+            report.note_once(Subject::Block(number), fault.hint(hint));
         }
         Some(place)
     }

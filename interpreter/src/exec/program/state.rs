@@ -1,46 +1,12 @@
-//! State of a program from block to block: its levels with their control blocks, its calls, its known block numbers.
+//! State of a program from block to block: its calls, its known block numbers.
 
-use super::index::{EntryId, Index, Keyword, Labels};
+use super::index::Labels;
 use super::info::ProgramInfo;
 use crate::exec::block::modal::Modal;
 use crate::exec::options::Value;
-use crate::exec::step::SourceRef;
 use crate::machine::Channel;
-use crate::source::Position;
-use crate::syntax::ast::{Place, Span};
+use crate::syntax::ast::Span;
 use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// One program level.
-#[derive(Debug)]
-pub(in crate::exec) struct Level {
-    pub(in crate::exec::program) file: usize,
-    pub(in crate::exec::program) section: usize,
-    pub(in crate::exec::program) index: Arc<Index>,
-    /// Next block.
-    pub(in crate::exec::program) at: Position,
-    pub(in crate::exec::program) end: u64,
-    /// Position at which it begins again, and the number of passes left (REPEAT of `L SEQUENCE`).
-    pub(in crate::exec::program) begin: Position,
-    pub(in crate::exec::program) passes: u32,
-    pub(in crate::exec::program) frames: Vec<Frame>,
-    /// Modal state to be restored; present if the level is a cycle.
-    pub(in crate::exec::program) cycle: Option<Box<BeforeCycle>>,
-    /// Whether it is between `#VAR` and `#ENDVAR`.
-    pub(in crate::exec::program) declarations: bool,
-    /// Whether a line in it was no declaration: a missing `#ENDVAR` is reported once.
-    pub(in crate::exec::program) undeclared: bool,
-    /// Start of the present section between `#OPTIONAL EXECUTION ON` and `OFF`.
-    pub(in crate::exec::program) optional: Option<(Position, Span)>,
-    /// Whether a control block without an end covers the rest of the text.
-    pub(in crate::exec::program) cut: bool,
-    /// Offsets of the first and last block that jumps back may execute again.
-    pub(in crate::exec::program) again: Option<(u64, u64)>,
-    /// The block that called it; `None` for a program that no block called.
-    pub(in crate::exec::program) caller: Option<SourceRef>,
-    /// How the block that called it leaves its own level afterwards.
-    pub(in crate::exec::program) then: Option<Closing>,
-}
 
 /// Target of a call: a file, and a program in it.
 #[derive(Clone, Copy, Debug)]
@@ -56,38 +22,6 @@ pub(in crate::exec) enum Closing {
     Return,
     /// M02, M30.
     End,
-}
-
-impl Level {
-    /// Whether the block at a position may run more than once: it is in a loop or its head, or jumps lead back before
-    /// it.
-    pub(super) fn runs_again(&self, at: Position) -> bool {
-        self.is_repeated(at)
-            || self.index.at(at).is_some_and(|id| self.index.entry(id).keyword.is_loop())
-    }
-
-    /// The same for a block that is no control statement.
-    pub(super) fn is_repeated(&self, at: Position) -> bool {
-        self.frames.iter().any(|f| f.keyword.is_loop())
-            || self.again.is_some_and(|(first, last)| (first..=last).contains(&at.offset))
-    }
-}
-
-/// An open control block.
-#[derive(Clone, Debug)]
-pub(in crate::exec) struct Frame {
-    pub(in crate::exec::program) open: EntryId,
-    pub(in crate::exec::program) keyword: Keyword,
-    /// Counter, last value and step of `$FOR`.
-    pub(super) counter: Option<Arc<Counter>>,
-}
-
-/// Counter, last value and step of `$FOR`.
-#[derive(Debug)]
-pub(super) struct Counter {
-    pub(super) place: Place,
-    pub(super) end: f64,
-    pub(super) step: f64,
 }
 
 /// State before a cycle.

@@ -6,12 +6,14 @@
 //! ignored; text after the end of the main program is only mentioned, K-0004.
 
 use super::executor::Executor;
-use super::files::Look;
+use super::files::{Files, Look};
 use super::index::{Index, Keyword, Section};
+use super::state::Calls;
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::exec::block::groups::is_cycle_call;
 use crate::exec::commands::is_known;
 use crate::source::Position;
+use crate::syntax::Parser;
 use crate::syntax::ast::{Block, Body, CallKind, CodeNumber, Command, WordKind};
 
 /// Maximum number of faults reported for parts that were not reached.
@@ -41,7 +43,21 @@ impl Executor {
                     self.text_behind_end(&index, section, end);
                 }
                 for (from, to) in self.reached.gaps(file, section.start, end) {
-                    self.check_gap(file, (&index, &silence), from, to, &mut left);
+                    let mut gap = Gap {
+                        file,
+                        index: &index,
+                        files: &mut self.files,
+                        parser: &self.parser,
+                        calls: &self.decoder.calls,
+                        declarations: false,
+                        silent: silence.around(from),
+                    };
+                    let (found, calls_more) = gap.read(from, to, left);
+                    self.calls_more |= calls_more;
+                    left -= found.len();
+                    for diagnostic in found {
+                        self.report(diagnostic);
+                    }
                     if left == 0 {
                         return;
                     }
@@ -50,72 +66,10 @@ impl Executor {
         }
     }
 
-    fn check_gap(
-        &mut self,
-        file: usize,
-        (index, silence): (&Index, &Silence),
-        from: Position,
-        to: u64,
-        left: &mut usize,
-    ) {
-        let mut at = from;
-        let mut declarations = false;
-        // end of the ignored text
-        let mut silent = silence.around(from);
-        while at.offset < to && *left > 0 {
-            if let Some(id) = index.at(at) {
-                let entry = index.entry(id);
-                if entry.keyword.is_silent() || entry.keyword == Keyword::ConditionalIf {
-                    let end = entry.end.map_or(to, |end| index.entry(end).position.offset);
-                    silent = silent.max(Some(end));
-                }
-            }
-            let remark = index.at(at).is_some_and(|id| index.entry(id).keyword == Keyword::Remark);
-            let look = match (remark || silent.is_some_and(|end| at.offset <= end), declarations) {
-                (true, _) => Look::Pass,
-                (false, true) => Look::Declaration,
-                (false, false) => Look::Block,
-            };
-            let mut found = Vec::new();
-            let parsed = self.files.look(
-                file,
-                at,
-                look,
-                &self.parser,
-                &self.decoder.calls.macros,
-                &mut found,
-            );
-            // the file was read before: parts that can no longer be read have been reported
-            let Ok(Some((block, next))) = parsed else { return };
-            self.calls_more |= self.may_open(&block);
-            if let (Body::Command(command), Look::Block) = (&block.body, look)
-                && !is_known(command)
-                && !is_structure_command(command)
-            {
-                let text = format!("unknown command #{}", command.name());
-                let place = self.files.locate(file, at, command.span, &self.decoder.calls.macros);
-                let diagnostic = Diagnostic::new(Condition::CommandUnknown, text);
-                found.extend(place.map(|place| (diagnostic.at(place), false)));
-            }
-            if let Body::Command(command) = &block.body {
-                declarations = (declarations || command.is("VAR")) && !command.is("ENDVAR");
-            }
-            // what is only unusual does no harm where it does not run
-            let wrong = found.into_iter().filter(|(d, _)| d.id != Condition::Odd);
-            for (diagnostic, is_structure) in wrong {
-                if *left > 0 {
-                    *left -= 1;
-                    self.report(if is_structure { diagnostic } else { unreached(diagnostic) });
-                }
-            }
-            at = next;
-        }
-    }
-
     /// K-0004: blocks after the M02 or M30 that ended the main program. An end inside a control block, or with a label
     /// after it, need not be the end of the program.
     fn text_behind_end(&mut self, index: &Index, section: &Section, end: u64) {
-        let main = matches!(&self.levels[..], [main] if main.frames.is_empty());
+        let main = matches!(&self.levels[..], [main] if main.is_outside_structures());
         let last = self.position.offset >= section.start.offset && self.position.offset < end;
         if self.found.errors() > 0
             || !main
@@ -157,6 +111,76 @@ impl Executor {
             at = next;
         }
     }
+}
+
+/// A part of a file that a check did not execute, while it is read.
+struct Gap<'a> {
+    file: usize,
+    index: &'a Index,
+    files: &'a mut Files,
+    parser: &'a Parser,
+    calls: &'a Calls,
+    /// Between `#VAR` and `#ENDVAR`.
+    declarations: bool,
+    /// End of the ignored text.
+    silent: Option<u64>,
+}
+
+impl Gap<'_> {
+    /// The faults of its blocks, up to `most`, and whether one of them would open a file unknown to the check.
+    fn read(&mut self, from: Position, to: u64, most: usize) -> (Vec<Diagnostic>, bool) {
+        let (mut all, mut calls_more, mut at) = (Vec::new(), false, from);
+        while at.offset < to && all.len() < most {
+            let look = self.look_at(at, to);
+            let mut found = Vec::new();
+            let macros = &self.calls.macros;
+            let parsed = self.files.look(self.file, at, look, self.parser, macros, &mut found);
+            // the file was read before: parts that can no longer be read have been reported
+            let Ok(Some((block, next))) = parsed else { break };
+            calls_more |= self.may_open(&block);
+            if let Body::Command(command) = &block.body {
+                if look == Look::Block {
+                    found.extend(self.unknown(command, at).map(|d| (d, false)));
+                }
+                self.declarations =
+                    (self.declarations || command.is("VAR")) && !command.is("ENDVAR");
+            }
+            // what is only unusual does no harm where it does not run
+            let wrong = found.into_iter().filter(|(d, _)| d.id != Condition::Odd);
+            let room = most - all.len();
+            let told = wrong.map(|(d, is_structure)| if is_structure { d } else { unreached(d) });
+            all.extend(told.take(room));
+            at = next;
+        }
+        (all, calls_more)
+    }
+
+    /// How the block at a position is checked.
+    fn look_at(&mut self, at: Position, to: u64) -> Look {
+        let entry = self.index.at(at).map(|id| self.index.entry(id));
+        if let Some(entry) = entry
+            && (entry.keyword.is_silent() || entry.keyword == Keyword::ConditionalIf)
+        {
+            let end = entry.end.map_or(to, |end| self.index.entry(end).position.offset);
+            self.silent = self.silent.max(Some(end));
+        }
+        let remark = entry.is_some_and(|entry| entry.keyword == Keyword::Remark);
+        match (remark || self.silent.is_some_and(|end| at.offset <= end), self.declarations) {
+            (true, _) => Look::Pass,
+            (false, true) => Look::Declaration,
+            (false, false) => Look::Block,
+        }
+    }
+
+    /// The fault of a command that does not exist.
+    fn unknown(&mut self, command: &Command, at: Position) -> Option<Diagnostic> {
+        if is_known(command) || is_structure_command(command) {
+            return None;
+        }
+        let place = self.files.locate(self.file, at, command.span, &self.calls.macros)?;
+        let text = format!("unknown command #{}", command.name());
+        Some(Diagnostic::new(Condition::CommandUnknown, text).at(place))
+    }
 
     /// Whether a block that was not executed would open a file unknown to the check.
     fn may_open(&self, block: &Block) -> bool {
@@ -166,11 +190,11 @@ impl Executor {
             WordKind::G { number, .. } => is_cycle_call(*number),
             WordKind::ComputedG(_) => true,
             WordKind::M(CodeNumber::Literal(6) | CodeNumber::Computed(_), _) => {
-                self.decoder.calls.tool_change_file.is_some()
+                self.calls.tool_change_file.is_some()
             }
             WordKind::Address { name, .. } => {
                 let data = matches!(name.letter(), Some(b'D' | b'T'));
-                data && self.decoder.calls.tool_data_file.is_some()
+                data && self.calls.tool_data_file.is_some()
             }
             _ => false,
         })

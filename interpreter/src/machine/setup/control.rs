@@ -5,7 +5,7 @@ use super::{monitors, plant};
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::machine::kind::AxisKind;
 use crate::machine::table::param::{Number, Param, Place};
-use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, kontur};
+use crate::machine::table::{Row, axis_control, axis_drive as of, axis_general, own};
 use crate::machine::{Axis, gears, issues};
 use kontur_filters::control::{
     AxisControlConfig, FeedforwardConfig, FeedforwardMode, PositionConfig, PositionLoop,
@@ -125,7 +125,7 @@ fn without_effect(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) 
         );
     }
     if drive != Drive::Simulated {
-        for input in [kontur::ADDITIVE_VELOCITY, kontur::ADDITIVE_TORQUE] {
+        for input in [own::ADDITIVE_VELOCITY, own::ADDITIVE_TORQUE] {
             if axis.get(input) {
                 let hint = "a bus drive has the inputs named in antr.sercos.mdt[i].nc_ref";
                 let what = "additive input of the simulated drive, for another drive";
@@ -207,8 +207,8 @@ fn additive_inputs(
 ) -> AdditiveInputs {
     if drive == Drive::Simulated {
         return AdditiveInputs {
-            velocity: axis.get(kontur::ADDITIVE_VELOCITY),
-            torque: axis.get(kontur::ADDITIVE_TORQUE),
+            velocity: axis.get(own::ADDITIVE_VELOCITY),
+            torque: axis.get(own::ADDITIVE_TORQUE),
         };
     }
     let named = |name: &str| {

@@ -3,7 +3,7 @@
 use crate::diag::{Condition, Diagnostic};
 use crate::machine::kind::AxisKind;
 use crate::machine::table::param::Place;
-use crate::machine::table::{axis_control, axis_drive as of, kontur};
+use crate::machine::table::{axis_control, axis_drive as of, own};
 use crate::machine::transmission::{
     feed_constant, feed_constant_given, gear, has_rotary_motor, is_one,
 };
@@ -18,7 +18,7 @@ pub(super) fn encoder(axis: &Axis) -> Encoder {
     let listed = [axis_control::ENCODER_NUM, axis_control::ENCODER_DENOM]
         .iter()
         .any(|param| axis.set_by(param.at(1)).is_some());
-    if listed || axis.get(kontur::LOAD_ENCODER) { Encoder::Direct } else { Encoder::Motor }
+    if listed || axis.get(own::LOAD_ENCODER) { Encoder::Direct } else { Encoder::Motor }
 }
 
 /// Smallest step of the measuring system of the position loop in mm: P-AXIS-00422/00423 of a direct one, otherwise
@@ -100,7 +100,7 @@ pub(super) fn torque(axis: &Axis, diagnostics: &mut Vec<Diagnostic>) -> TorqueFo
     TorqueFormat {
         motor,
         load: axis.listed(of::LOAD),
-        real_load: Some(axis.get(kontur::INERTIA)).filter(|x| *x > 0.0),
+        real_load: Some(axis.get(own::INERTIA)).filter(|x| *x > 0.0),
         reference: axis.listed(of::TORQUE_REFERENCE),
         scale_num: axis.listed(of::TORQUE_SCALE_NUM),
         scale_denom: axis.listed(of::TORQUE_SCALE_DENOM),

@@ -2,7 +2,7 @@
 
 use crate::diag::{Condition, Diagnostic, Severity, ValueKind};
 use crate::machine::table::param::{Number, Param};
-use crate::machine::table::{axis_guard as of, kontur};
+use crate::machine::table::{axis_guard as of, own};
 use crate::machine::{Axis, issues};
 use kontur_filters::control::Issue;
 use kontur_filters::control::fault::IpcParameter;
@@ -19,7 +19,7 @@ pub(super) fn config(axis: &Axis) -> IpcConfig {
     IpcConfig {
         enable: axis.get(of::IPC_ENABLE),
         limit_ratio: axis.get(of::IPC_SPEED_MAX),
-        delay_cycles: axis.get(kontur::IPC_DELAY) as usize,
+        delay_cycles: axis.get(own::IPC_DELAY) as usize,
         stages: (0..IpcConfig::MAX_STAGES as u32).map(|index| stage(axis, index)).collect(),
         gantry_slave: false,
     }

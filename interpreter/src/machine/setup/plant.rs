@@ -4,7 +4,7 @@ use crate::machine::Axis;
 use crate::machine::overrides::OVERRIDE;
 use crate::machine::parameters::Setting;
 use crate::machine::table::param::{Number, Param, Place};
-use crate::machine::table::{Indices, axis_drive, kontur as of};
+use crate::machine::table::{Indices, axis_drive, own as of};
 use kontur_filters::control::plant::{
     Disturbance, ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig,
 };

@@ -2,8 +2,8 @@
 
 use super::{
     ListKind, Row, axis_compensation, axis_control, axis_drive, axis_dynamics, axis_filters,
-    axis_functions, axis_general, axis_guard, channel, channel_hsc, external, kontur, start_up,
-    tool, with_indices, zero,
+    axis_functions, axis_general, axis_guard, channel, channel_hsc, external, own, start_up, tool,
+    with_indices, zero,
 };
 use crate::suggest::edit_distance;
 use std::collections::HashMap;
@@ -25,7 +25,7 @@ const FAMILIES: &[&[Row]] = &[
     tool::ROWS,
     zero::ROWS,
     external::ROWS,
-    kontur::ROWS,
+    own::ROWS,
 ];
 
 /// Other spellings of a key that mean the same parameter, with `[]` for every index.

@@ -1,8 +1,8 @@
 //! The signals of a comparison with a recording: columns of the trace, channels of the recording, and both row by row.
 
-use crate::Error;
 use crate::args::Pairing;
 use crate::diff::table::Table;
+use crate::error::Error;
 use crate::recorded::{self, Channel, DropOut, Even};
 
 /// Longest signals that are compared, in cycles: more than an hour at 1 ms.

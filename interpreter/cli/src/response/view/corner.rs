@@ -2,10 +2,10 @@
 
 use super::super::curve::Curve;
 use super::answer::{Answer, cycle_text, labels};
-use crate::Error;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around};
 use crate::chart::view::{Line, Points, View};
+use crate::error::Error;
 use crate::table::{Cell, Table};
 use kontur_filters::analysis::corner::CornerPath;
 use kontur_filters::stage::Stage;

@@ -2,11 +2,11 @@
 
 use super::super::curve::Curve;
 use super::answer::{Answer, cycle_text, labels, spread};
-use crate::Error;
 use crate::args::ResponseArgs;
 use crate::chart::plot::Plot;
 use crate::chart::scale::{Scale, around};
 use crate::chart::view::{Line, Points, View};
+use crate::error::Error;
 use crate::table::{Cell, Table};
 use kontur_filters::response::Angle;
 use kontur_filters::time::CycleTime;

@@ -55,7 +55,7 @@ impl Executor {
     fn straight_ahead(&mut self, words: &mut StraightWords) -> Option<Ahead> {
         let [level] = &self.levels[..] else { return None };
         let (file, at) = (level.file, level.at);
-        let inside = at.offset < level.end && !level.declarations;
+        let inside = at.offset < level.end && !level.is_declaring();
         if !inside || level.is_repeated(at) || level.index.at(at).is_some() {
             return None;
         }

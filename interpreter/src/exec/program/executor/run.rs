@@ -16,8 +16,8 @@ use crate::exec::program::state::Closing;
 use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::exec::values::number::whole;
 use crate::source::Position;
+use crate::syntax::Parser;
 use crate::syntax::ast::{Block, BlockNumber, Body, Span};
-use crate::syntax::{END_OF_DECLARATIONS, Parser};
 use std::sync::Arc;
 
 /// Number of messages and functions between two motions up to which the path does not stop.
@@ -107,9 +107,7 @@ impl Executor {
         if self.decoder.checking {
             self.reached.add(file, at, next);
         }
-        if let Some(level) = self.levels.last_mut() {
-            level.at = next;
-        }
+        self.levels.jump_to(next);
         self.decoder.moved = false;
     }
 
@@ -126,12 +124,8 @@ impl Executor {
     /// The contents of `#RT CYCLE` are not executed.
     fn behind_real_time_cycle(&mut self, entry: Option<EntryId>) {
         let (Some(id), Some(level)) = (entry, self.levels.last()) else { return };
-        let entry = level.index.entry(id);
-        if entry.keyword == Keyword::RealTimeBegin {
-            match entry.end.map(|end| level.index.entry(end).position) {
-                Some(end) => self.jump_behind(end),
-                None => self.skip_unclosed(),
-            }
+        if level.index.entry(id).keyword == Keyword::RealTimeBegin {
+            self.jump_behind_end(level.end_of(id));
         }
     }
 
@@ -140,19 +134,9 @@ impl Executor {
         let Some(level) = self.levels.last() else { return true };
         let entry = level.index.entry(id);
         match entry.keyword {
-            Keyword::CommentBegin => {
-                match entry.end.map(|end| level.index.entry(end).position) {
-                    Some(end) => self.jump_behind(end),
-                    None => self.skip_unclosed(),
-                }
-                true
-            }
-            // the branch before it was taken
-            Keyword::ConditionalElse => {
-                match entry.end.map(|end| level.index.entry(end).position) {
-                    Some(end) => self.jump_behind(end),
-                    None => self.skip_unclosed(),
-                }
+            // before `#ELSE` a branch was taken
+            Keyword::CommentBegin | Keyword::ConditionalElse => {
+                self.jump_behind_end(level.end_of(id));
                 true
             }
             Keyword::Remark => {
@@ -190,7 +174,7 @@ impl Executor {
         let level = self.levels.last()?;
         let keep = self.levels.len() > 1 || level.runs_again(at);
         let reading =
-            Reading { keep: keep && !level.declarations, declaration: level.declarations };
+            Reading { keep: keep && !level.is_declaring(), declaration: level.is_declaring() };
         let mut found = Vec::new();
         let block = self.files.block(
             file,
@@ -200,11 +184,8 @@ impl Executor {
             &self.decoder.calls.macros,
             &mut found,
         );
-        if let Some(level) = self.levels.last_mut().filter(|level| level.declarations) {
-            let known = level.undeclared;
-            let of_end = |d: &Diagnostic| d.hint.as_deref() == Some(END_OF_DECLARATIONS);
-            found.retain(|d| !known || !of_end(d));
-            level.undeclared |= found.iter().any(of_end);
+        if let Some(level) = self.levels.current_mut() {
+            level.once_undeclared(&mut found);
         }
         for diagnostic in found {
             self.report(diagnostic);
@@ -212,7 +193,7 @@ impl Executor {
         match block {
             Ok(Some(block)) => Some(block),
             Ok(None) => {
-                self.skip_to_level_end();
+                self.levels.skip_to_end();
                 None
             }
             Err(e) => {
@@ -392,9 +373,8 @@ impl Executor {
         }
         let Some(closing) = closing else { return };
         // the level that runs last is the one called first
-        match self.levels.get_mut(levels) {
-            Some(called) => called.then = Some(closing),
-            None => self.close(closing),
+        if !self.levels.close_after(levels, closing) {
+            self.close(closing);
         }
     }
 

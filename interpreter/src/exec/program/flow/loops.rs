@@ -6,8 +6,8 @@ use crate::exec::options::Value;
 use crate::exec::program::executor::Executor;
 use crate::exec::program::index::EntryId;
 use crate::exec::program::index::Keyword;
+use crate::exec::program::level::Counter;
 use crate::exec::program::reads::Reads;
-use crate::exec::program::state::Counter;
 use crate::syntax::ast::{Expr, Place, PlaceKind, Span};
 
 impl Executor {
@@ -22,7 +22,7 @@ impl Executor {
     ) -> Outcome<()> {
         let closed = self.levels.last().is_some_and(|l| l.index.entry(id).end.is_some());
         if !closed {
-            return Err(self.unclosed(id, span));
+            return Err(self.levels.unclosed(id, span));
         }
         let bounds = (|| {
             let step = match step {
@@ -63,15 +63,16 @@ impl Executor {
             self.leave_structure(id);
             return Ok(());
         }
-        self.push_frame(id, Some(Counter { place: counter.clone(), end, step: by }));
+        self.levels.open(
+            id,
+            Some(Counter { place: counter.clone(), end, step: by }),
+            &mut self.files,
+        );
         Ok(())
     }
 
     pub(super) fn end_for(&mut self, id: EntryId) -> Outcome<()> {
-        let Some(level) = self.levels.last() else { return Ok(()) };
-        let open = level.index.entry(id).open;
-        let frame = level.frames.iter().rfind(|f| Some(f.open) == open);
-        let Some(counter) = frame.and_then(|f| f.counter.clone()) else { return Ok(()) };
+        let Some(counter) = self.levels.counter_of(id) else { return Ok(()) };
         let reads = Reads::of_place(&counter.place, self.files.asynchronous());
         if !self.rests_before(reads.external) {
             return Ok(());
@@ -80,13 +81,13 @@ impl Executor {
             Ok(Value::Number(x)) => x + counter.step,
             Ok(Value::Text(_)) => f64::NAN,
             Err(fault) => {
-                self.pop_frame_of(id);
+                self.levels.close(id);
                 return Err(fault);
             }
         };
         self.decoder.write(&counter.place, Value::Number(value), counter.place.span)?;
         if passed(value, counter.end, counter.step) || value.is_nan() {
-            self.pop_frame_of(id);
+            self.levels.close(id);
         } else {
             self.repeat(id, false);
         }
@@ -96,22 +97,17 @@ impl Executor {
     /// Returns to the opening statement if `test` is set, which evaluates its condition again, otherwise to the block
     /// after it.
     pub(super) fn repeat(&mut self, id: EntryId, test: bool) {
-        let Some(level) = self.levels.last() else { return };
-        let open = level.index.entry(id).open;
         // an unmatched closing statement does not repeat anything
-        if !level.frames.iter().any(|f| Some(f.open) == open) {
+        if !self.levels.close_inside(id) {
             return;
         }
-        let Some(position) = self.position_of(open) else { return };
+        let Some(position) = self.levels.last().and_then(|level| level.start_of(id)) else {
+            return;
+        };
         if test {
-            self.pop_frame_of(id);
-            self.jump_to(position);
+            self.levels.close(id);
+            self.levels.jump_to(position);
         } else {
-            if let (Some(level), Some(open)) = (self.levels.last_mut(), open)
-                && let Some(depth) = level.frames.iter().rposition(|f| f.open == open)
-            {
-                level.frames.truncate(depth + 1);
-            }
             self.jump_behind(position);
         }
     }
@@ -119,10 +115,10 @@ impl Executor {
     pub(super) fn while_loop(&mut self, condition: &Expr, id: EntryId, span: Span) -> Outcome<()> {
         let end = self.levels.last().and_then(|l| l.index.entry(id).end);
         if end.is_none() {
-            return Err(self.unclosed(id, span));
+            return Err(self.levels.unclosed(id, span));
         }
         if self.test(condition) {
-            self.push_frame(id, None);
+            self.levels.open(id, None, &mut self.files);
         } else {
             self.leave_structure(id);
         }
@@ -132,9 +128,9 @@ impl Executor {
     pub(super) fn open_loop(&mut self, id: EntryId, span: Span) -> Outcome<()> {
         let end = self.levels.last().and_then(|l| l.index.entry(id).end);
         if end.is_none() {
-            return Err(self.unclosed(id, span));
+            return Err(self.levels.unclosed(id, span));
         }
-        self.push_frame(id, None);
+        self.levels.open(id, None, &mut self.files);
         Ok(())
     }
 
@@ -150,7 +146,7 @@ impl Executor {
         if goes_on {
             self.repeat(id, false);
         } else {
-            self.pop_frame_of(id);
+            self.levels.close(id);
         }
     }
 
@@ -158,22 +154,17 @@ impl Executor {
     pub(super) fn until(&mut self, condition: &Expr, id: EntryId) -> Outcome<()> {
         match self.decoder.number(condition) {
             Ok(x) if x <= 0.5 => self.repeat(id, false),
-            Ok(_) => self.pop_frame_of(id),
+            Ok(_) => self.levels.close(id),
             Err(fault) => {
-                self.pop_frame_of(id);
+                self.levels.close(id);
                 return Err(fault);
             }
         }
         Ok(())
     }
 
-    fn innermost(&self, wanted: impl Fn(Keyword) -> bool) -> Option<EntryId> {
-        let level = self.levels.last()?;
-        level.frames.iter().rfind(|f| wanted(f.keyword)).map(|f| f.open)
-    }
-
     pub(super) fn break_out(&mut self, span: Span) -> Outcome<()> {
-        if let Some(open) = self.innermost(|k| k.is_loop() || k == Keyword::Switch) {
+        if let Some(open) = self.levels.innermost(|k| k.is_loop() || k == Keyword::Switch) {
             self.leave_structure(open);
             Ok(())
         } else {
@@ -183,15 +174,12 @@ impl Executor {
     }
 
     pub(super) fn go_on(&mut self, span: Span) -> Outcome<()> {
-        let Some(open) = self.innermost(Keyword::is_loop) else {
+        let Some(open) = self.levels.innermost(Keyword::is_loop) else {
             return Err(Fault::new(Condition::ContinueOutside, "$CONTINUE outside loops", span));
         };
-        let end = self.levels.last().and_then(|l| l.index.entry(open).end);
-        if let (Some(level), Some(end)) = (self.levels.last_mut(), end) {
-            if let Some(depth) = level.frames.iter().rposition(|f| f.open == open) {
-                level.frames.truncate(depth + 1);
-            }
-            level.at = level.index.entry(end).position;
+        if let Some(end) = self.levels.last().and_then(|level| level.end_of(open)) {
+            self.levels.close_inside(open);
+            self.levels.jump_to(end);
         }
         Ok(())
     }

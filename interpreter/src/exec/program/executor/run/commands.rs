@@ -5,11 +5,12 @@ use crate::exec::commands;
 use crate::exec::fault::Fault;
 use crate::exec::program::executor::Executor;
 use crate::exec::program::index::EntryId;
+use crate::exec::program::level::Level;
 use crate::syntax::ast::Command;
 
 impl Executor {
     pub(super) fn command(&mut self, command: &Command, entry: Option<EntryId>) {
-        let declarations = self.levels.last().is_some_and(|l| l.declarations);
+        let declarations = self.levels.last().is_some_and(Level::is_declaring);
         if command.is("VAR") || command.is("ENDVAR") {
             let begins = command.is("VAR");
             if begins == declarations {
@@ -18,9 +19,8 @@ impl Executor {
                 let hint = "#VAR begins declarations, the next #ENDVAR ends them";
                 self.decoder.report.note(fault.hint(hint));
             }
-            if let Some(level) = self.levels.last_mut() {
-                level.declarations = begins;
-                level.undeclared = false;
+            if let Some(level) = self.levels.current_mut() {
+                level.declare(begins);
             }
             return;
         }
@@ -51,7 +51,7 @@ impl Executor {
     /// `#OPTIONAL EXECUTION ON` and `OFF` must be on the same level; otherwise 21720 (255794059).
     fn optional_execution(&mut self, command: &Command) {
         let (on, here) = (command.on, (self.position, command.span));
-        let Some(level) = self.levels.last_mut() else { return };
+        let Some(level) = self.levels.current_mut() else { return };
         match on {
             Some(true) => level.optional = Some(here),
             Some(false) if level.optional.take().is_none() => {
@@ -83,9 +83,6 @@ impl Executor {
         }
         let Some(level) = self.levels.last() else { return };
         let next = level.index.entry(id).next.map(|next| level.index.entry(next).position);
-        match next {
-            Some(next) => self.jump_behind(next),
-            None => self.skip_unclosed(),
-        }
+        self.jump_behind_end(next);
     }
 }
