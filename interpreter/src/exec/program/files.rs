@@ -200,16 +200,14 @@ impl Files {
             {
                 return Err(FileError::Foreign(full));
             }
-            let (index, diagnostics) = match self.structures.of(&full) {
-                Some(known) => known,
-                None => {
-                    let (index, found) =
-                        build(&mut reader, &full, skip).map_err(FileError::Read)?;
-                    let index = Arc::new(index);
-                    let structure = (Arc::clone(&full), Arc::clone(&index), found.clone());
-                    self.structures.0.push(structure);
-                    (index, found)
-                }
+            let (index, diagnostics) = if let Some(known) = self.structures.of(&full) {
+                known
+            } else {
+                let (index, found) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
+                let index = Arc::new(index);
+                let structure = (Arc::clone(&full), Arc::clone(&index), found.clone());
+                self.structures.0.push(structure);
+                (index, found)
             };
             self.names.push(Arc::clone(&full));
             self.opened.push(Opened {
