@@ -28,6 +28,7 @@ pub(crate) use program::ahead::connection;
 pub use program::check::Checked;
 pub(crate) use program::check::check;
 pub(crate) use program::executor::Executor;
+pub(crate) use program::files::Structures;
 pub(crate) use program::places::Places;
 pub(crate) use step::{
     Ahead, Approach, AtCorner, BandingRun, CuttingSpeed, Decoded, EndReason, Event, Feedback,

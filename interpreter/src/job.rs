@@ -103,14 +103,14 @@ impl Job {
 
     /// Decodes the program without moving anything and reports every diagnostic, not only the first.
     pub fn check(&self) -> Checked {
-        let mut checked = self.decode();
+        let (mut checked, _) = self.decode();
         let lists = self.warnings.iter().cloned().chain(self.machine.chains().1);
         let lists = lists.chain(impossible_axes(&self.machine));
         checked.diagnostics.splice(..0, lists);
         checked
     }
 
-    fn decode(&self) -> Checked {
+    fn decode(&self) -> (Checked, exec::Structures) {
         let sources = Arc::clone(&self.sources);
         exec::check(sources, &self.program, Arc::clone(&self.machine), self.options.clone())
     }
@@ -121,7 +121,7 @@ impl Job {
     /// # Errors
     /// The diagnostics, if the plant of an axis is not physical (K-0070).
     pub fn start(&self) -> Result<Run, Vec<Diagnostic>> {
-        let checked = self.decode();
+        let (checked, structures) = self.decode();
         let refused = checked.refuses();
         let several_files = checked.files.len() > 1 || checked.calls_more;
         let mut messages = self.warnings.clone();
@@ -137,6 +137,7 @@ impl Job {
             Arc::clone(&self.sources),
             &self.program,
             self.options.clone(),
+            structures,
         )?;
         let facts = facts(&self.program, &self.machine, &simulation, several_files);
         let stop = self.options.stop.clone();

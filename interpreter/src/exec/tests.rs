@@ -17,7 +17,9 @@ mod straight;
 mod tables;
 mod tangential;
 
-use super::{EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Sync, check};
+use super::{
+    EndReason, Event, Executor, Feedback, Options, SkipLevels, Step, Structures, Sync, check,
+};
 use crate::diag::Diagnostic;
 use crate::machine::{Machine, Override};
 use crate::source::{MemorySources, Sources};
@@ -116,7 +118,8 @@ pub(super) fn run_with(
     machine: Arc<Machine>,
     options: Options,
 ) -> Run {
-    let mut executor = Executor::new(Arc::new(sources), "main.nc", machine, options);
+    let mut executor =
+        Executor::new(Arc::new(sources), "main.nc", machine, options, Structures::default());
     let mut steps = Vec::new();
     loop {
         let feedback = Feedback { actual_mm: executor.target().clone(), ..Feedback::default() };
@@ -155,7 +158,7 @@ pub(super) fn shown(diagnostics: &[Diagnostic]) -> Vec<String> {
 /// Diagnostics of the syntax check.
 pub(super) fn checked(text: &str) -> Vec<Diagnostic> {
     let sources = MemorySources::new().with("main.nc", text);
-    check(Arc::new(sources), "main.nc", machine(&[]), Options::default()).diagnostics
+    check(Arc::new(sources), "main.nc", machine(&[]), Options::default()).0.diagnostics
 }
 
 #[track_caller]

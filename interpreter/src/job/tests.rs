@@ -1,4 +1,5 @@
 mod selected;
+mod structure;
 
 use super::*;
 use crate::record::{Asked, CycleRecord, Quantity, Rows};

@@ -5,7 +5,7 @@ use super::thread::{Work, give};
 use crate::diag::{Diagnostic, Location};
 use crate::exec::{
     Ahead, Decoded, EndReason, Executor, Feedback, Options, Places, ShapingSetup, SourceRef, Step,
-    TimerCall, Told, connection,
+    Structures, TimerCall, Told, connection,
 };
 use crate::machine::Machine;
 use crate::source::Sources;
@@ -41,9 +41,10 @@ impl Program {
         name: &str,
         machine: Arc<Machine>,
         options: Options,
+        structures: Structures,
     ) -> (Self, AxisVec, Vec<Diagnostic>) {
         let mut places = Places::new(Arc::clone(&sources));
-        let mut executor = Executor::new(sources, name, Arc::clone(&machine), options);
+        let mut executor = Executor::new(sources, name, Arc::clone(&machine), options, structures);
         places.add(executor.take_opened());
         let (start, found) = (executor.start_position().clone(), executor.take_diagnostics());
         let shaping = executor.shaping().clone();

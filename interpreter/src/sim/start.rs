@@ -13,7 +13,7 @@ use super::state::{Batch, BlockRefs, Phase, Queue, Simulation, TimeLimit, Times}
 use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use crate::diag::Diagnostic;
-use crate::exec::Options;
+use crate::exec::{Options, Structures};
 use crate::machine::{ChainSetup, Machine};
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
@@ -22,7 +22,7 @@ use kontur_motion::planner::Planner;
 use std::sync::Arc;
 
 impl Simulation {
-    /// A program on a machine, before its first cycle.
+    /// A program on a machine, before its first cycle; `structures`: what its check has found.
     ///
     /// # Errors
     /// The diagnostics, if the plant of an axis is not physical or a program cannot be opened.
@@ -31,11 +31,13 @@ impl Simulation {
         sources: Arc<dyn Sources>,
         program: &str,
         options: Options,
+        structures: Structures,
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
         let limit = TimeLimit::new(options.max_time_s, cycle);
-        let (program, start, found) = Program::new(sources, program, Arc::clone(&machine), options);
+        let on = Arc::clone(&machine);
+        let (program, start, found) = Program::new(sources, program, on, options, structures);
         let n = machine.axes.len();
         let drivers = drivers(&machine);
         let chains = chains_at(&start, setups, &drivers, &machine)?;

@@ -1,6 +1,7 @@
 //! Decodes a program without moving, and collects all its diagnostics.
 
-use super::executor::Executor;
+use super::executor::{Executor, Mode};
+use super::files::Structures;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::contour::programmed_time_s;
 use crate::exec::options::{GuardCommands, Options};
@@ -32,15 +33,15 @@ impl Checked {
 
 /// Executes a program as if every axis were always at its command position, continues after errors where possible, and
 /// returns all diagnostics. It stops after 20 errors, and where the limits in the options stop a run (K-0017). Parts
-/// that were not executed are checked for their syntax (K-0118).
+/// that were not executed are checked for their syntax (K-0118). The structure of its files serves a run that follows.
 pub(crate) fn check(
     sources: Arc<dyn Sources>,
     program: &str,
     machine: Arc<Machine>,
     options: Options,
-) -> Checked {
+) -> (Checked, Structures) {
     let max_time_s = options.max_time_s;
-    let mut executor = Executor::with_mode(sources, program, machine, options, true);
+    let mut executor = Executor::with_mode(sources, program, machine, options, Mode::Check);
     let mut time_s = 0.0;
     let mut pass = |executor: &mut Executor, seconds: f64, at: SourceRef| {
         let was_over = time_s > max_time_s;
@@ -59,12 +60,13 @@ pub(crate) fn check(
         match executor.next(Told::from(feedback)) {
             Step::End { .. } => {
                 executor.check_unreached();
-                return Checked {
+                let checked = Checked {
                     diagnostics: executor.take_diagnostics(),
                     files: executor.files().to_vec(),
                     calls_more: executor.calls_more,
                     guard: executor.guard_commands().clone(),
                 };
+                return (checked, executor.into_structures());
             }
             Step::Motion { block, source, .. } => {
                 pass(&mut executor, programmed_time_s(&block), source);

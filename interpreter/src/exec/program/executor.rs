@@ -8,7 +8,7 @@ mod run;
 
 use self::budget::Budget;
 use self::found::Found;
-use super::files::Files;
+use super::files::{Files, Structures};
 use super::level::Levels;
 use super::places::position;
 use super::reached::Reached;
@@ -36,6 +36,13 @@ enum State {
     /// The next block of the level waits for actual positions.
     WaitsForActual,
     Ended,
+}
+
+/// Purpose of an execution.
+pub(in crate::exec) enum Mode {
+    Check,
+    /// With what a check of the same program has found.
+    Run(Structures),
 }
 
 /// Runs one program and returns its steps.
@@ -75,14 +82,15 @@ impl fmt::Debug for Executor {
 
 impl Executor {
     /// A program before its first block. If it cannot be opened, the first step is [`Step::End`], and the diagnostics
-    /// give the reason.
+    /// give the reason. `structures`: what a check has found.
     pub(crate) fn new(
         sources: Arc<dyn Sources>,
         program: &str,
         machine: Arc<Machine>,
         options: Options,
+        structures: Structures,
     ) -> Self {
-        Self::with_mode(sources, program, machine, options, false)
+        Self::with_mode(sources, program, machine, options, Mode::Run(structures))
     }
 
     pub(in crate::exec) fn with_mode(
@@ -90,13 +98,19 @@ impl Executor {
         program: &str,
         machine: Arc<Machine>,
         options: Options,
-        checking: bool,
+        mode: Mode,
     ) -> Self {
         let mut diagnostics = Vec::new();
         let start = start_position(&machine, &options.start, &mut diagnostics);
         let (skip, budget) = (options.skip, Budget::new(&options));
         let mut decoder = Decoder::new(machine, options, &start);
-        decoder.checking = checking;
+        let structures = match mode {
+            Mode::Check => {
+                decoder.checking = true;
+                Structures::default()
+            }
+            Mode::Run(structures) => structures,
+        };
         let of_spindles = decoder.motion.spindle_names(&decoder.machine.channel);
         let names = decoder.names.long_names(of_spindles);
         let asynchronous = decoder.machine.external.asynchronous();
@@ -104,7 +118,7 @@ impl Executor {
             parser: Parser::new(names.iter().map(String::as_str)),
             decoder,
             sources,
-            files: Files::new(asynchronous),
+            files: Files::new(asynchronous, structures),
             levels: Levels::default(),
             sequences: Sequences::default(),
             skip,
@@ -287,6 +301,11 @@ impl Executor {
         let mut location = self.files.locate_block(source.file as usize, position(source))?;
         location.block = source.block;
         Some(location)
+    }
+
+    /// The structure of the files opened so far.
+    pub(in crate::exec::program) fn into_structures(self) -> Structures {
+        self.files.into_structures()
     }
 
     /// Current kernels; before the first step those of the axis lists.

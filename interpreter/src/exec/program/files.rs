@@ -73,6 +73,21 @@ pub(in crate::exec) struct ProgramFile {
 
 type Macros = BTreeMap<Box<str>, Box<str>>;
 
+/// The structure of files that were read as a whole before, with the faults found in it.
+///
+/// A check leaves it to the run that follows, which so reads each text once less. A text that changes between them is an
+/// error at the end of the run, see [`Sources::changed`].
+#[derive(Debug, Default)]
+pub(crate) struct Structures(Vec<(Arc<str>, Arc<Index>, Vec<Diagnostic>)>);
+
+impl Structures {
+    /// That of the file with this name.
+    fn of(&self, name: &str) -> Option<(Arc<Index>, Vec<Diagnostic>)> {
+        let (_, index, found) = self.0.iter().find(|(known, ..)| **known == *name)?;
+        Some((Arc::clone(index), found.clone()))
+    }
+}
+
 /// The way a block is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::exec) struct Reading {
@@ -106,10 +121,12 @@ pub(in crate::exec) struct Files {
     resolved: BTreeMap<(usize, Box<str>), usize>,
     /// External variables that are read without a stop.
     asynchronous: external::Names,
+    structures: Structures,
 }
 
 impl Files {
-    pub(in crate::exec) fn new(asynchronous: external::Names) -> Self {
+    /// No files yet; `structures`: those that an earlier pass over the same texts has found.
+    pub(in crate::exec) fn new(asynchronous: external::Names, structures: Structures) -> Self {
         Self {
             open: Vec::new(),
             names: Vec::new(),
@@ -118,12 +135,18 @@ impl Files {
             plain: Plain::default(),
             resolved: BTreeMap::new(),
             asynchronous,
+            structures,
         }
     }
 
     /// External variables that are read without a stop.
     pub(in crate::exec::program) fn asynchronous(&self) -> &external::Names {
         &self.asynchronous
+    }
+
+    /// The structure of all files opened so far.
+    pub(in crate::exec::program) fn into_structures(self) -> Structures {
+        self.structures
     }
 
     /// The block to which [`Fetched::Plain`] refers.
@@ -177,8 +200,15 @@ impl Files {
             {
                 return Err(FileError::Foreign(full));
             }
-            let (index, diagnostics) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
-            let index = Arc::new(index);
+            let (index, diagnostics) = if let Some(known) = self.structures.of(&full) {
+                known
+            } else {
+                let (index, found) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
+                let index = Arc::new(index);
+                let structure = (Arc::clone(&full), Arc::clone(&index), found.clone());
+                self.structures.0.push(structure);
+                (index, found)
+            };
             self.names.push(Arc::clone(&full));
             self.opened.push(Opened {
                 name: Arc::clone(&full),

@@ -14,7 +14,7 @@ fn a_curve_through_a_point_outside_the_limits() {
     let pos = "POS PRE_DIST=3 POST_DIST=3 X12 Y1 Z0";
     let machine = super::machine(&[&at(100_000)]);
     let sources = crate::source::MemorySources::new().with("main.nc", text(pos, ""));
-    let found = crate::exec::check(
+    let (found, _) = crate::exec::check(
         std::sync::Arc::new(sources),
         "main.nc",
         machine,

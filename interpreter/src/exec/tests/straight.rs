@@ -94,7 +94,7 @@ fn plain_motions_do_what_the_words_say() {
                 max_time_s,
                 ..Options::default()
             };
-            let checked =
+            let (checked, _) =
                 check(Arc::new(sources.clone()), "main.nc", Arc::clone(&machine), options.clone());
             let run = run_with(sources, Arc::clone(&machine), options);
             // a message of the grammar quotes the text
