@@ -284,3 +284,25 @@ fn leading(count: usize, has: impl Fn(usize) -> bool) -> usize {
     }
     low
 }
+
+#[cfg(test)]
+mod tests {
+    use super::leading;
+    use proptest::prelude::*;
+    use std::cell::Cell;
+
+    proptest! {
+        /// The same as one item after the other, with a number of looks that grows with the logarithm of the result.
+        #[test]
+        fn leading_items_are_counted_with_few_looks(count in 0..3000_usize, share in 0.0..=1.0f64) {
+            let expected = (share * share * count as f64) as usize;
+            let looks = Cell::new(0);
+            let found = leading(count, |i| {
+                looks.set(looks.get() + 1);
+                i < expected
+            });
+            prop_assert_eq!(found, expected);
+            prop_assert!(looks.get() <= 2 * (expected + 1).ilog2() + 3, "{} {expected}", looks.get());
+        }
+    }
+}

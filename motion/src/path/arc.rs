@@ -4,6 +4,7 @@ mod nearest;
 
 use super::line::feed_length;
 use crate::axis::AxisVec;
+use nearest::Fan;
 
 /// The parameters of an arc in addition to its end points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +35,8 @@ pub struct ArcPath {
     /// Slope of the axes outside the plane, per s; zero in the plane.
     linear: AxisVec,
     length: f64,
+    /// The directions of its points, if it is a plane circle.
+    fan: Option<Fan>,
 }
 
 impl ArcPath {
@@ -69,7 +72,19 @@ impl ArcPath {
         }
         let linear = start.iter().zip(flat_end.iter()).map(|(s, e)| (e - s) / length).collect();
         let start_rad = libm::atan2(sy, sx);
-        Some(Self { start, end, shape, start_rad, radius_start, radius_end, linear, length })
+        let mut out = Self {
+            start,
+            end,
+            shape,
+            start_rad,
+            radius_start,
+            radius_end,
+            linear,
+            length,
+            fan: None,
+        };
+        out.fan = Fan::of(&out);
+        Some(out)
     }
 
     pub(crate) fn length(&self) -> f64 {
@@ -189,6 +204,7 @@ impl ArcPath {
         (out.radius_end, _, _) = self.polar(to);
         out.length = to - from;
         out.shape.sweep_rad *= out.length / self.length;
+        out.fan = Fan::of(&out);
         out
     }
 }

@@ -15,7 +15,59 @@ const ALIKE: f64 = 1e-12;
 /// Step of Newton's method, in lengths of the arc, after which the remaining error, about its square, is rounding.
 const LAST_STEP: f64 = 1e-9;
 
+/// The directions in which the points of a plane circle lie, as seen from its centre.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fan {
+    /// Unit vector to the middle of the arc, in the plane.
+    middle: [f64; 2],
+    /// Square of the distance of both ends from there, in radii; infinite for a full circle.
+    chord2: f64,
+}
+
+impl Fan {
+    /// `None` if the distance of a point also depends on something else: a height, or a radius that changes.
+    pub(super) fn of(arc: &ArcPath) -> Option<Self> {
+        let is_plane = arc.linear.iter().all(|l| *l == 0.0);
+        let is_circle = (arc.radius_end - arc.radius_start).abs() <= ALIKE * arc.radius_start;
+        let half = 0.5 * arc.shape.sweep_rad;
+        let (sin, cos) = libm::sincos(arc.start_rad + half);
+        // unlike a cosine, a chord also tells small angles apart
+        let chord = if half.abs() < PI { 2.0 * libm::sin(0.5 * half) } else { f64::INFINITY };
+        (is_plane && is_circle).then_some(Self { middle: [cos, sin], chord2: chord * chord })
+    }
+}
+
 impl ArcPath {
+    /// Vector to `point` from the nearest point, and the square of its length.
+    pub(in crate::path) fn vector_to(&self, point: &[f64], out: &mut [f64]) -> f64 {
+        if !self.vector_from_circle(point, out) {
+            self.position(self.nearest(point), out);
+            for (out, p) in out.iter_mut().zip(point) {
+                *out = p - *out;
+            }
+        }
+        out.iter().map(|c| c * c).sum()
+    }
+
+    /// The vector from a plane circle on which a point lies at the same angle, without computing that angle.
+    fn vector_from_circle(&self, point: &[f64], out: &mut [f64]) -> bool {
+        let Some(Fan { middle, chord2 }) = &self.fan else { return false };
+        let [a, b] = self.shape.plane;
+        let [x, y] = [point[a] - self.shape.centre_mm[0], point[b] - self.shape.centre_mm[1]];
+        let away = f64::sqrt(x * x + y * y);
+        let off = [x - away * middle[0], y - away * middle[1]];
+        let is_inside = off[0] * off[0] + off[1] * off[1] <= chord2 * away * away;
+        if away <= 0.0 || !is_inside {
+            return false;
+        }
+        for ((out, p), start) in out.iter_mut().zip(point).zip(self.start.iter()) {
+            *out = p - start;
+        }
+        let share = (away - self.radius()) / away;
+        (out[a], out[b]) = (share * x, share * y);
+        true
+    }
+
     /// Nearest point: for a plane arc the point at the same angle; for a helix Newton's method from that angle in every
     /// turn (the distance has at most one minimum per turn within half a turn of it).
     pub(in crate::path) fn nearest(&self, point: &[f64]) -> f64 {
@@ -72,7 +124,7 @@ impl ArcPath {
             return None;
         }
         let at = |angle: f64| angle.clamp(0.0, whole) / whole * self.length;
-        if self.is_plane_circle() {
+        if self.fan.is_some() {
             return Some(at(centre));
         }
         let (low, high) = (at(centre - SIDE_RAD), at(centre + SIDE_RAD));
@@ -91,12 +143,6 @@ impl ArcPath {
             (s, before) = (next, distance2);
         }
         None
-    }
-
-    /// Whether the distance from a point does not depend on anything but the angle.
-    fn is_plane_circle(&self) -> bool {
-        self.linear.iter().all(|l| *l == 0.0)
-            && (self.radius_end - self.radius_start).abs() <= ALIKE * self.radius_start
     }
 
     fn turn_range(&self, point: &[f64], turns: u32) -> (u32, u32) {
@@ -122,7 +168,7 @@ impl ArcPath {
     /// Newton's method on the derivative of the squared distance; keeps the old value if a step does not help. Returns
     /// the path length and the squared distance there.
     fn polish(&self, point: &[f64], s: f64) -> (f64, f64) {
-        if self.is_plane_circle() {
+        if self.fan.is_some() {
             return (s, self.distance2(point, s));
         }
         let (mut s, mut here) = (s, self.approach(point, s));
@@ -223,6 +269,13 @@ mod tests {
             let all = (0..=20_000).map(|i| apart(arc.length() * f64::from(i) / 20_000.0));
             let least = all.fold(f64::INFINITY, f64::min);
             prop_assert!(found <= least + 1e-12, "{found} {least}");
+            let mut vector = [0.0; 3];
+            let square = arc.vector_to(&point, &mut vector);
+            prop_assert!((square.sqrt() - found).abs() <= 1e-12);
+            // its foot is a point of the arc
+            let foot = [0, 1, 2].map(|i| point[i] - vector[i]);
+            arc.position(arc.nearest(&foot), &mut q);
+            prop_assert!(q.iter().zip(&foot).all(|(q, p)| (q - p).abs() <= 1e-9), "{q:?} {foot:?}");
         }
     }
 }
