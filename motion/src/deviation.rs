@@ -218,16 +218,11 @@ impl SetPath {
         let (mut low, mut high) = (first, last);
         while low < high {
             let certain = self.way(low + 1) + look(low);
-            low += 1;
-            while low < high && self.way(low + 1) < certain {
-                low += 1;
-            }
+            low = self.first_beyond(certain, (low + 1, high));
             if low < high {
                 high -= 1;
                 let certain = self.way(high) - look(high);
-                while low < high && self.way(high - 1) > certain {
-                    high -= 1;
-                }
+                high = self.last_before(certain, (low, high));
             }
         }
         let (d2, k) = search.best;

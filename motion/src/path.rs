@@ -198,6 +198,7 @@ impl Path {
     fn vector_from_bend(&self, point: &[f64], out: &mut [f64]) -> f64 {
         match self {
             // without the detour by the path length
+            Self::Arc(p) => return p.vector_to(point, out),
             Self::Curve(p) => p.nearest_point(point, out),
             _ => self.position(self.nearest(point), out),
         }

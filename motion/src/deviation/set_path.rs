@@ -80,6 +80,21 @@ impl SetPath {
         self.ways[(k - self.first) as usize]
     }
 
+    /// The first of some lines, given by the cycles at which they begin, whose end lies not less than `mm` along the set
+    /// path; the cycle after them if there is none. Fast if it is one of the first.
+    pub(super) fn first_beyond(&self, mm: f64, (from, end): (u64, u64)) -> u64 {
+        let ways = &self.ways[(from + 1 - self.first) as usize..][..(end - from) as usize];
+        from + leading(ways.len(), |i| ways[i] < mm) as u64
+    }
+
+    /// The cycle after the last of some lines, as in [`Self::first_beyond`], that begins not more than `mm` along the
+    /// set path; the first one if there is none. Fast if it is one of the last.
+    pub(super) fn last_before(&self, mm: f64, (from, end): (u64, u64)) -> u64 {
+        let ways = &self.ways[(from - self.first) as usize..][..(end - from) as usize];
+        let last = ways.len();
+        end - leading(last, |i| ways[last - 1 - i] > mm) as u64
+    }
+
     /// The cycle after the last one.
     pub(crate) fn end(&self) -> u64 {
         self.end
@@ -247,4 +262,47 @@ fn foot(a: &[f64], b: &[f64], point: &[f64]) -> (f64, f64) {
         d2 += c * c;
     }
     (d2, u)
+}
+
+/// How many of `count` items, from the first one on, have a property that none has after one that has not. Takes steps
+/// that double, so that few leading items take few looks.
+fn leading(count: usize, has: impl Fn(usize) -> bool) -> usize {
+    let (mut known, mut step) = (0, 1);
+    while known < count && has((known + step).min(count) - 1) {
+        known = (known + step).min(count);
+        step *= 2;
+    }
+    // the last step went too far
+    let (mut low, mut high) = (known, (known + step).min(count).saturating_sub(1).max(known));
+    while low < high {
+        let mid = low.midpoint(high);
+        if has(mid) {
+            low = mid + 1;
+        } else {
+            high = mid;
+        }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::leading;
+    use proptest::prelude::*;
+    use std::cell::Cell;
+
+    proptest! {
+        /// The same as one item after the other, with a number of looks that grows with the logarithm of the result.
+        #[test]
+        fn leading_items_are_counted_with_few_looks(count in 0..3000_usize, share in 0.0..=1.0f64) {
+            let expected = (share * share * count as f64) as usize;
+            let looks = Cell::new(0);
+            let found = leading(count, |i| {
+                looks.set(looks.get() + 1);
+                i < expected
+            });
+            prop_assert_eq!(found, expected);
+            prop_assert!(looks.get() <= 2 * (expected + 1).ilog2() + 3, "{} {expected}", looks.get());
+        }
+    }
 }

@@ -1,7 +1,10 @@
 //! Arc in a plane of two axes, the others linear in the angle (helix).
 
+mod nearest;
+
 use super::line::feed_length;
 use crate::axis::AxisVec;
+use nearest::Fan;
 
 /// The parameters of an arc in addition to its end points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +35,8 @@ pub struct ArcPath {
     /// Slope of the axes outside the plane, per s; zero in the plane.
     linear: AxisVec,
     length: f64,
+    /// The directions of its points, if it is a plane circle.
+    fan: Option<Fan>,
 }
 
 impl ArcPath {
@@ -67,7 +72,19 @@ impl ArcPath {
         }
         let linear = start.iter().zip(flat_end.iter()).map(|(s, e)| (e - s) / length).collect();
         let start_rad = libm::atan2(sy, sx);
-        Some(Self { start, end, shape, start_rad, radius_start, radius_end, linear, length })
+        let mut out = Self {
+            start,
+            end,
+            shape,
+            start_rad,
+            radius_start,
+            radius_end,
+            linear,
+            length,
+            fan: None,
+        };
+        out.fan = Fan::of(&out);
+        Some(out)
     }
 
     pub(crate) fn length(&self) -> f64 {
@@ -187,125 +204,7 @@ impl ArcPath {
         (out.radius_end, _, _) = self.polar(to);
         out.length = to - from;
         out.shape.sweep_rad *= out.length / self.length;
-        out
-    }
-
-    /// Nearest point: for a plane arc the point at the same angle; for a helix Newton's method from that angle in every
-    /// turn (the distance has at most one minimum per turn within half a turn of it).
-    pub(super) fn nearest(&self, point: &[f64]) -> f64 {
-        let [a, b] = self.shape.plane;
-        let (px, py) = (point[a] - self.shape.centre_mm[0], point[b] - self.shape.centre_mm[1]);
-        let angle = libm::atan2(py, px);
-        let turn = 2.0 * std::f64::consts::PI;
-        let sweep = self.shape.sweep_rad;
-        // angle from the start to the point in the direction of rotation
-        let delta = (angle - self.start_rad) * sweep.signum();
-        let first = delta - turn * libm::floor(delta / turn);
-        let mut best = (f64::INFINITY, 0.0);
-        let mut candidate = |s: f64| {
-            let (s, d) = self.polish(point, s.clamp(0.0, self.length));
-            if d < best.0 {
-                best = (d, s);
-            }
-        };
-        candidate(0.0);
-        candidate(self.length);
-        let turns = libm::ceil(sweep.abs() / turn) as u32;
-        // for a helix with many turns only those close to the height of the point can contain the nearest point
-        let (from, to) = self.turn_range(point, turns);
-        for k in from..=to {
-            let phi = first + turn * f64::from(k);
-            if phi <= sweep.abs() {
-                candidate(phi / sweep.abs() * self.length);
-            }
-        }
-        best.1
-    }
-
-    fn turn_range(&self, point: &[f64], turns: u32) -> (u32, u32) {
-        let (mut dot, mut norm) = (0.0, 0.0);
-        for ((p, s), l) in point.iter().zip(self.start.iter()).zip(self.linear.iter()) {
-            dot += (p - s) * l;
-            norm += l * l;
-        }
-        if turns <= 2 || norm <= 0.0 {
-            return (0, turns.min(2));
-        }
-        let at = (dot / norm / self.length).clamp(0.0, 1.0) * f64::from(turns);
-        let mid = libm::floor(at) as u32;
-        (mid.saturating_sub(1), (mid + 1).min(turns))
-    }
-
-    fn distance2(&self, point: &[f64], s: f64) -> f64 {
-        let mut q = AxisVec::zeros(point.len());
-        self.position(s, &mut q);
-        q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum()
-    }
-
-    /// Newton's method on the derivative of the squared distance; keeps the old value if a step does not help. Returns
-    /// the path length and the squared distance there.
-    fn polish(&self, point: &[f64], s: f64) -> (f64, f64) {
-        if self.linear.iter().all(|l| *l == 0.0)
-            && self.radius_start.to_bits() == self.radius_end.to_bits()
-        {
-            return (s, self.distance2(point, s));
-        }
-        let (mut s, mut here) = (s, self.approach(point, s));
-        for _ in 0..20 {
-            let [square, first, second] = here;
-            if second <= 0.0 {
-                break;
-            }
-            let next = (s - first / second).clamp(0.0, self.length);
-            if (next - s).abs() <= 1e-13 * self.length {
-                return (next, self.distance2(point, next));
-            }
-            let there = self.approach(point, next);
-            if there[0] > square {
-                break;
-            }
-            (s, here) = (next, there);
-        }
-        (s, here[0])
-    }
-
-    /// Squared distance of a point from the arc at `s`, and half its first and half its second derivative. The sine of
-    /// an angle costs more than all the rest, so position, tangent and curvature share it.
-    fn approach(&self, point: &[f64], s: f64) -> [f64; 3] {
-        let (radius, angle, rate) = self.polar(s);
-        let growth = (self.radius_end - self.radius_start) / self.length;
-        let (sin, cos) = libm::sincos(angle);
-        let [a, b] = self.shape.plane;
-        let mut out = [0.0; 3];
-        for (i, p) in point.iter().enumerate() {
-            let (position, tangent, curvature) = if i == a {
-                (
-                    self.shape.centre_mm[0] + radius * cos,
-                    growth * cos - radius * rate * sin,
-                    -radius * rate * rate * cos - 2.0 * growth * rate * sin,
-                )
-            } else if i == b {
-                (
-                    self.shape.centre_mm[1] + radius * sin,
-                    growth * sin + radius * rate * cos,
-                    -radius * rate * rate * sin + 2.0 * growth * rate * cos,
-                )
-            } else {
-                (self.start[i] + s * self.linear[i], self.linear[i], 0.0)
-            };
-            // the ends are met exactly
-            let position = if s <= 0.0 {
-                self.start[i]
-            } else if s >= self.length {
-                self.end[i]
-            } else {
-                position
-            };
-            let aside = position - p;
-            out[0] += aside * aside;
-            out[1] += aside * tangent;
-            out[2] += tangent * tangent + aside * curvature;
-        }
+        out.fan = Fan::of(&out);
         out
     }
 }

@@ -7,6 +7,9 @@
 //! bends the sagitta of the arc is added. Where the filters of the axes are equal, `m` is the mean of the path lengths
 //! that they hold: the bound is then close to the measured value, because the vector has no component along the path, to
 //! first order. Filters that differ move the set point along the path, and `m` is moved with it.
+//!
+//! The length bounds every component of the shortest vector, which the tolerance is about. The components of `y - q(m)`
+//! do not: the shortest vector may be shorter than this one and have a larger component.
 
 use super::marks::Mark;
 use crate::axis::AxisVec;
