@@ -31,6 +31,24 @@ fn an_unstable_axis_ends_the_run() {
     }
 }
 
+/// Too high a weight of a band pass of order 3, in the example of the documents: with a small limit of the additive speed the
+/// lag stays small, and the axis swings for ever after its motion. Order 2 with the same weight damps it.
+/// Conformance: I011.
+#[test]
+fn a_loop_that_swings_within_its_limits_ends_the_run() {
+    let program = "%P\nG90 G01 X500 F16362\nG04 5\nM30\n";
+    let order = |order: u32| {
+        let key = "X.lr_param.improved_position_control.stage[0].filter[0].order";
+        on("rack_and_pinion", &[format!("{key}={order}")], program)
+    };
+    let unstable = order(3);
+    assert!(unstable.totals.aborted, "{:?}", unstable.diagnostics);
+    assert!(unstable.diagnostics.iter().any(|d| d.text.contains("swinging")));
+    // the motion takes 2.1 s
+    assert!(unstable.records.last().unwrap().k < 4_000);
+    assert!(!order(2).totals.aborted);
+}
+
 /// `#MACHINE DATA` between two motions: the axis comes to rest before it takes over the new weight, and uses it from then on.
 /// Conformance: I024.
 #[test]

@@ -116,7 +116,7 @@ fn accelerations_are_proposed_where_ramps_take_the_time() {
         [("accelerations +10 % of all axes", 1.1), ("ramp times -10 % of all axes", 1.0 / 0.9)]
     {
         let found = proposals.iter().find(|p| p["what"] == what).expect(what);
-        let want = run.duration() * (1.0 - f64::powf(root, -1.0 / 3.0));
+        let want = run.duration() * (1.0 - 1.0 / libm::cbrt(root));
         let saves_s = found["saves_s"].as_f64().unwrap();
         assert!((saves_s - want).abs() < 0.004, "{what}: {saves_s}, not {want}");
     }

@@ -104,6 +104,11 @@ pub enum Fault {
         /// Largest following error of a loop that counts as stable, in mm.
         limit_mm: f64,
     },
+    /// K-0035: Improved Position Control swings between the limits of its additive speed although nothing drives the axis.
+    Swings {
+        /// Limit of the additive speed (P-AXIS-00757) in mm/s.
+        limit_mm_s: f64,
+    },
 }
 
 /// The faults one axis raised in one cycle; no allocation.
@@ -113,8 +118,9 @@ pub struct Faults {
 }
 
 impl Faults {
-    /// One slot per source: three setpoint derivatives, controller speed, lag, range, exact stop, divergence.
-    const CAPACITY: usize = 8;
+    /// One slot per source: three setpoint derivatives, controller speed, lag, range, exact stop, Improved Position Control,
+    /// divergence.
+    const CAPACITY: usize = 9;
 
     /// Adds a fault. A full list stays as it is; it cannot overflow, since every source raises at most one fault per
     /// cycle.

@@ -321,9 +321,19 @@ pub struct Ipc {
     limit_mm_s: f64,
     delay: usize,
     computed: [IpcOutput; IpcConfig::MAX_DELAY + 1],
+    /// Number of times that the additive speed has gone from one of its limits to the other since the axis was driven.
+    swings: u32,
+    /// The limit that it reached last, with its sign.
+    reached_mm_s: f64,
 }
 
 impl Ipc {
+    /// Swings at rest, ten periods, after which the loop counts as unstable: what a motion leaves in a stable one decays, and
+    /// soon no longer reaches the limits.
+    ///
+    /// Assumption: the documents only say that too large a weight makes the loop unstable (TF5260), not how it shows.
+    const UNSTABLE: u32 = 20;
+
     /// The configured function; it outputs 0 if it is off or has an error ([`IpcConfig::check`]).
     pub fn new(config: &IpcConfig, v_max_mm_s: f64, cycle: CycleTime) -> Self {
         let stages = if config.active(cycle) {
@@ -336,6 +346,8 @@ impl Ipc {
             limit_mm_s: config.limit_ratio.clamp(0.0, 2.0) * v_max_mm_s,
             delay: config.delay_cycles.min(IpcConfig::MAX_DELAY),
             computed: [IpcOutput::default(); IpcConfig::MAX_DELAY + 1],
+            swings: 0,
+            reached_mm_s: 0.0,
         }
     }
 
@@ -343,6 +355,7 @@ impl Ipc {
     pub fn start(&mut self) {
         self.stages.iter_mut().for_each(Stage::start);
         self.computed.fill(IpcOutput::default());
+        (self.swings, self.reached_mm_s) = (0, 0.0);
     }
 
     /// Whether there are no stages, so that the additive speed is always 0.
@@ -362,6 +375,22 @@ impl Ipc {
         self.computed.rotate_right(1);
         self.computed[0] = IpcOutput { speed_mm_s, limited: wanted.abs() > self.limit_mm_s };
         self.computed[self.delay]
+    }
+
+    /// Watches the output of a cycle: a fault if it keeps swinging between its limits. `driven`: the reference position moves,
+    /// or an external force acts.
+    pub(crate) fn swings(&mut self, output: &IpcOutput, driven: bool) -> Option<Fault> {
+        if driven {
+            (self.swings, self.reached_mm_s) = (0, 0.0);
+        } else if output.limited {
+            self.swings += u32::from(self.reached_mm_s * output.speed_mm_s < 0.0);
+            self.reached_mm_s = output.speed_mm_s;
+        }
+        if self.swings < Self::UNSTABLE {
+            return None;
+        }
+        self.swings = 0;
+        Some(Fault::Swings { limit_mm_s: self.limit_mm_s })
     }
 
     /// Takes new parameters if the axis is at rest.

@@ -298,8 +298,11 @@ impl Sources for ProgramFiles {
         let Some(caller) = caller else { return self.main(name) };
         // programs written on Windows use backslashes in the names of subroutines
         let wanted = PathBuf::from(name.replace('\\', "/"));
-        let beside = Path::new(caller).parent().filter(|folder| *folder != self.home);
-        let folders = beside.into_iter().chain([&*self.home]);
+        // a path that leads upwards starts at the caller
+        let upwards = wanted.components().any(|part| part == Component::ParentDir);
+        let beside = Path::new(caller).parent();
+        let home = Some(&*self.home).filter(|home| !upwards && beside != Some(home));
+        let folders = beside.into_iter().chain(home);
         let folders = folders.chain(self.folders.iter().map(PathBuf::as_path));
         let mut searched = Vec::new();
         let mut reason = "no such file".to_owned();

@@ -6,7 +6,7 @@ use super::messages::MESSAGES_MAX;
 use super::state::Simulation;
 use crate::diag::{Condition, Diagnostic};
 use crate::exec::{Event, ShapingSetup, TimerCall};
-use crate::machine::ChainSetup;
+use crate::machine::{Axis, ChainSetup, Machine};
 use kontur_filters::control::AxisControlConfig;
 use kontur_motion::profile::Infeasible;
 use kontur_motion::tolerance::Kernels;
@@ -168,39 +168,41 @@ impl Simulation {
     /// `#MACHINE DATA`: replaces the chains whose configuration has changed. There may be more than that of the axis:
     /// feedforward of one axis delays all of them, and gantry slaves take parameters from their master.
     pub(super) fn machine_data(&mut self) {
-        let (before, _) = self.machine.chains();
-        self.machine = Arc::clone(self.program.machine());
-        let (setups, _) = self.machine.chains();
+        let known = std::mem::replace(&mut self.machine, Arc::clone(self.program.machine()));
+        let ((before, _), (setups, _)) = (known.chains(), self.machine.chains());
         for (i, (old, new)) in before.iter().zip(setups).enumerate() {
             if *old != new {
-                self.replace(i, old, &new);
+                let gear = |machine: &Machine| machine.all_axes().nth(i).map(Axis::gear);
+                let shifted = gear(&known) != gear(&self.machine);
+                self.replace(i, old, &new, shifted);
             }
         }
         let setup = self.program.shaping().clone();
         self.swap_kernels(&setup);
     }
 
-    /// Replaces the chain of an axis, at the position of the axis and with the active kernel.
-    fn replace(&mut self, i: usize, old: &ChainSetup, new: &ChainSetup) {
+    /// Replaces the chain of an axis, at the position of the axis and with the active kernel; `shifted`: to another gear
+    /// stage.
+    fn replace(&mut self, i: usize, old: &ChainSetup, new: &ChainSetup, shifted: bool) {
         let before = &self.chains[i];
         match AxisChain::new(new.clone(), before.set_mm(), self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
                 chain.take_over(before, old, new);
                 self.chains[i] = chain;
-                self.control_changed(i, &old.control, &new.control);
+                // a gear stage changes in position, or at the standstill of a spindle
+                if !shifted {
+                    self.control_changed(i, &old.control, &new.control);
+                }
             }
             Err(e) => self.messages.own.push(super::fault::plant(&e, &self.machine, i)),
         }
     }
 
-    /// K-0022 if gains change while the axis is still on its way to its set position; G112 has waited until it is in position.
+    /// K-0022 if gains change while the axis is still on its way to its set position.
     fn control_changed(&mut self, i: usize, old: &AxisControlConfig, new: &AxisControlConfig) {
         let axis = &self.record.axes[i];
         let kv = |config: &AxisControlConfig| config.position.gain_at(axis.vel.abs());
-        // the record is that of the previous cycle
-        let lag = axis.lag * (1.0 - kv(old) * self.cycle.seconds());
-        let in_position = lag.abs() <= old.exact_stop.window_mm;
-        let of_gain = if in_position { 0.0 } else { (kv(new) - kv(old)) * lag };
+        let of_gain = (kv(new) - kv(old)) * axis.lag;
         let of_feedforward = if old.feedforward == new.feedforward { 0.0 } else { axis.ff };
         let of_ipc = if old.ipc == new.ipc { 0.0 } else { axis.vadd };
         if [of_gain, of_feedforward, of_ipc].iter().any(|jump| jump.abs() > LEAST_JUMP_MM_S) {

@@ -88,6 +88,8 @@ impl Simulation {
             self.frozen[i].get_or_insert(here);
             match reaction {
                 Reaction::OpenLoopStop => self.chains[i].open_loop(),
+                // with its loop closed an unstable axis never comes to rest
+                Reaction::AllStop if i == chain => self.chains[i].open_loop(),
                 Reaction::AbruptStop => self.chains[i].halt(),
                 Reaction::None
                 | Reaction::ProgramAbort
@@ -176,6 +178,9 @@ impl Simulation {
                 .value(ValueKind::Current, value, per_s(unit, order(what)))
                 .value(ValueKind::Limit, limit, per_s(unit, order(what)))
                 .parameter(thresholds(what).1),
+            Fault::Swings { limit_mm_s } => {
+                base.value(ValueKind::Limit, limit_mm_s, per_s(unit, 1))
+            }
             Fault::IpcChangedMoving => base,
         };
         let mut diagnostic = diagnostic.axis(number, name);

@@ -180,6 +180,10 @@ impl AxisControl {
                 // an axis that a reaction holds does not arrive; the reaction has been reported already
                 self.faults.push(late.filter(|_| self.held_mm.is_none()));
             }
+            if !PLAIN && !self.ipc.is_off() {
+                let driven = reference_step_mm.abs() > 0.0 || inputs.force_mm_s2.abs() > 0.0;
+                self.faults.push(self.ipc.swings(&additive, driven));
+            }
             let unstable = self.advance(
                 &mut plant,
                 PlantInput {

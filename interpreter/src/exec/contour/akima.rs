@@ -314,8 +314,8 @@ impl Akima {
     /// G150, G151; a note if the spline has ended without the tangent that the program states for its end.
     pub(in crate::exec) fn select(&mut self, on: bool, at: Span) -> Vec<Fault> {
         let at_arc = std::mem::take(&mut self.behind_arc) && self.run.is_none();
+        let ends = self.start.used && !on;
         self.start.used &= on && self.selected;
-        let ends = self.selected && !on;
         self.selected = on;
         if !ends {
             return Vec::new();

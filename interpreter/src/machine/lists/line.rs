@@ -73,7 +73,10 @@ pub(super) struct Parts<'a> {
 fn is_number(text: &str) -> bool {
     match text.strip_prefix("0x").or(text.strip_prefix("0X")) {
         Some(digits) => !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_hexdigit()),
-        None => text.bytes().all(|b| b.is_ascii_digit() || b == b'.'),
+        None => {
+            text.bytes().any(|b| b.is_ascii_digit())
+                && text.bytes().all(|b| b.is_ascii_digit() || b == b'.')
+        }
     }
 }
 
@@ -103,14 +106,15 @@ pub(super) fn value(raw: Raw, rest: &str) -> Parts<'_> {
             names.iter().any(|(name, _)| name.eq_ignore_ascii_case(word))
         };
         let tail = &rest[value.len()..];
-        let mut words = tail.split_whitespace().skip_while(|word| matches!(*word, "+" | "&" | ","));
-        let next = if value.starts_with(|c: char| c.is_ascii_digit()) {
-            let all = tail.split_whitespace().take_while(|word| !is_comment(word)).all(is_number);
-            words.next().filter(|word| all && !is_comment(word))
+        let words = tail.split_whitespace().skip_while(|word| matches!(*word, "+" | "&" | ","));
+        let mut words = words.take_while(|word| !is_comment(word));
+        let next = words.next();
+        let dropped = if value.starts_with(|c: char| c.is_ascii_digit()) {
+            next.filter(|next| is_number(next) && words.all(is_number))
         } else {
-            words.next().filter(is_flag)
+            next.filter(is_flag)
         };
-        return Parts { value: Some(value), dropped: next };
+        return Parts { value: Some(value), dropped };
     }
     let (word, tail) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
     if raw == Raw::Text {
@@ -211,6 +215,8 @@ mod tests {
         assert_eq!(sum, Parts { value: Some("VEL"), dropped: Some("ACC") });
         let numbers = value(Raw::Flags(&[("VEL", 1)]), "0x1 0x4 # both");
         assert_eq!(numbers, Parts { value: Some("0x1"), dropped: Some("0x4") });
+        let sum = value(Raw::Flags(&[("VEL", 1)]), "0x1 + 0x4");
+        assert_eq!(sum, Parts { value: Some("0x1"), dropped: Some("0x4") });
         let explained = value(Raw::Flags(&[("VEL", 1)]), "0x101 0x1: VEL");
         assert_eq!(explained, Parts { value: Some("0x101"), dropped: None });
         let remark = value(Raw::Flags(&[("VEL", 1)]), "VEL and more");

@@ -52,6 +52,11 @@ pub(in crate::sim) fn text(fault: &Fault, unit: &'static str) -> String {
             r(lag_mm),
             r(limit_mm)
         ),
+        Fault::Swings { limit_mm_s } => format!(
+            "at rest the additive speed of Improved Position Control keeps swinging between its limits of {} {}: the loop is unstable",
+            r(limit_mm_s),
+            per_s(unit, 1)
+        ),
         Fault::IpcChangedMoving => {
             "parameters of Improved Position Control changed while the axis moves".to_owned()
         }
@@ -102,7 +107,7 @@ pub(in crate::sim) const fn condition(fault: &Fault, spindle: bool) -> Condition
             Condition::SetpointError
         }
         Fault::IpcChangedMoving => Condition::IpcChangedMoving,
-        Fault::Unstable { .. } => Condition::Unstable,
+        Fault::Unstable { .. } | Fault::Swings { .. } => Condition::Unstable,
     }
 }
 
