@@ -126,6 +126,27 @@ fn sample_of_inputs_of_axes() {
     assert_eq!(run.diagnostics, []);
 }
 
+/// A second hold, shortly after the first one is released and while the path still brakes for it, before a corner at which the
+/// tolerance requires a rest: whenever it comes, every block is driven once and without a jump.
+#[test]
+fn two_holds_before_a_corner() {
+    let program = "%P\n#SLOPE [TYPE=TRAPEZ]\n#VIB GUARD ON [MODE=4 FREQ=30 DAMPING=0.1 AX_DEV=0.02]\n\
+                   G90 G01 X10 Y0 F2000\nX10 Y10 F6000\nX9 Y10\nM30\n";
+    for ms in 290..345 {
+        let at = |after: f64| 0.001 * f64::from(ms) + after;
+        let holds = [(0.0, 1.0), (0.005, 0.0), (0.006, 1.0), (0.3, 0.0)];
+        let inputs = holds.map(|(after, hold)| (at(after), "feedhold", hold));
+        let run = run_with_inputs(machine(""), program, &inputs);
+        assert!(!run.totals.aborted, "{ms} ms: {:?}", run.said());
+        let (x, y) = (run.axis(0, |a| a.ipo), run.axis(1, |a| a.ipo));
+        let steps = x.windows(2).zip(y.windows(2));
+        let way: f64 = steps.map(|(x, y)| f64::hypot(x[1] - x[0], y[1] - y[0])).sum();
+        near(way, 21.0, 1e-6);
+        let last = run.records.last().unwrap();
+        near(last.path.s_mm, 21.0, 1e-6);
+    }
+}
+
 /// A feedhold in any of the last cycles of a motion: the path waits for its release, or is so near to its end that nothing is left to
 /// hold; then no later feedhold stops it. In both cases it ends where the block ends.
 #[test]

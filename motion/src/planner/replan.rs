@@ -243,8 +243,9 @@ impl Planner {
         for profile in leg {
             let length = profile.length();
             let mut from = 0.0;
+            // a segment that it enters by rounding only follows it, see `cut`, and would be driven twice
             let along = rest.iter().take_while(|segment| {
-                let inside = from < length;
+                let inside = from <= 0.0 || length - from > SAME_END_MM;
                 from += segment.queued.length;
                 inside
             });

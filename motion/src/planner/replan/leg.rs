@@ -164,7 +164,8 @@ impl Planner {
     }
 }
 
-/// The segments after the first `s` mm; a remainder no longer than rounding is dropped.
+/// The segments after the first `s` mm; a remainder no longer than rounding is dropped, and of the segment after a dropped one
+/// nothing that short is missing.
 pub(super) fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
     let mut gone = 0;
     // a leg to the end of a block and the remainder of the block are computed by different formulas
@@ -176,7 +177,7 @@ pub(super) fn cut(mut blocks: Vec<Segment>, mut s: f64) -> Vec<Segment> {
         gone += 1;
     }
     blocks.drain(..gone);
-    if let Some(first) = blocks.first_mut() {
+    if let Some(first) = blocks.first_mut().filter(|_| gone == 0 || s > SAME_END_MM) {
         first.queued = first.queued.remainder(s);
     }
     blocks
