@@ -140,7 +140,7 @@ fn two_holds_before_a_corner() {
         assert!(!run.totals.aborted, "{ms} ms: {:?}", run.said());
         let (x, y) = (run.axis(0, |a| a.ipo), run.axis(1, |a| a.ipo));
         let steps = x.windows(2).zip(y.windows(2));
-        let way: f64 = steps.map(|(x, y)| f64::hypot(x[1] - x[0], y[1] - y[0])).sum();
+        let way: f64 = steps.map(|(x, y)| libm::hypot(x[1] - x[0], y[1] - y[0])).sum();
         near(way, 21.0, 1e-6);
         let last = run.records.last().unwrap();
         near(last.path.s_mm, 21.0, 1e-6);
