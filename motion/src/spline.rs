@@ -27,9 +27,9 @@
 //! has a curvature of about `jump^2 / (6 d)` there. Below the deviation of the polygon with equal edges a smaller
 //! tolerance therefore costs speed, as its square root: the edges become straighter and the corners sharper, and the
 //! path speed has a ripple. A corner just short of a reversal stays a corner, as in contouring. So does a corner that
-//! is passed faster without the spline ([`worth`]), under `AX_DEV` possibly with a stop: a spline is not slower than
-//! its polygon. Between few edges of unequal length a larger tolerance can be slower than a smaller one, because fit and
-//! corners are decided locally.
+//! is passed faster without the spline ([`worth`]), under `AX_DEV` possibly with a stop. That is judged corner by corner,
+//! as if the speed were highest in the middle of each edge: next to a rest a spline may take a few hundredths longer than
+//! its corner, and between few edges of unequal length a larger tolerance can be slower than a smaller one.
 //!
 //! `PATH_DEV` and `TRACK_DEV` limit the total: what a fit uses next to a corner is not available there.
 //!

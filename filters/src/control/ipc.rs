@@ -331,7 +331,7 @@ impl Ipc {
     /// Swings at rest, ten periods, after which the loop counts as unstable: what a motion leaves in a stable one decays, and
     /// soon no longer reaches the limits.
     ///
-    /// Assumption: the documents only say that too large a weight makes the loop unstable (TF5260), not how it shows.
+    /// Assumption: the document says that too large a weight makes the loop unstable, not how it shows.
     const UNSTABLE: u32 = 20;
 
     /// The configured function; it outputs 0 if it is off or has an error ([`IpcConfig::check`]).
@@ -378,7 +378,7 @@ impl Ipc {
     }
 
     /// Watches the output of a cycle: a fault if it keeps swinging between its limits. `driven`: the reference position moves,
-    /// or an external force acts.
+    /// or the external inputs change.
     pub(crate) fn swings(&mut self, output: &IpcOutput, driven: bool) -> Option<Fault> {
         if driven {
             (self.swings, self.reached_mm_s) = (0, 0.0);

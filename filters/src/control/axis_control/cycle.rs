@@ -181,7 +181,7 @@ impl AxisControl {
                 self.faults.push(late.filter(|_| self.held_mm.is_none()));
             }
             if !PLAIN && !self.ipc.is_off() {
-                let driven = reference_step_mm.abs() > 0.0 || inputs.force_mm_s2.abs() > 0.0;
+                let driven = reference_step_mm.abs() > 0.0 || i == 0 && !same;
                 self.faults.push(self.ipc.swings(&additive, driven));
             }
             let unstable = self.advance(

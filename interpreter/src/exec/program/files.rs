@@ -78,15 +78,7 @@ type Macros = BTreeMap<Box<str>, Box<str>>;
 /// A check leaves it to the run that follows, which so reads each text once less. A text that changes between them is an
 /// error at the end of the run, see [`Sources::changed`].
 #[derive(Debug, Default)]
-pub(crate) struct Structures(Vec<(Arc<str>, Arc<Index>, Vec<Diagnostic>)>);
-
-impl Structures {
-    /// That of the file with this name.
-    fn of(&self, name: &str) -> Option<(Arc<Index>, Vec<Diagnostic>)> {
-        let (_, index, found) = self.0.iter().find(|(known, ..)| **known == *name)?;
-        Some((Arc::clone(index), found.clone()))
-    }
-}
+pub(crate) struct Structures(BTreeMap<Arc<str>, (Arc<Index>, Vec<Diagnostic>)>);
 
 /// The way a block is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -200,14 +192,13 @@ impl Files {
             {
                 return Err(FileError::Foreign(full));
             }
-            let (index, diagnostics) = if let Some(known) = self.structures.of(&full) {
-                known
+            let (index, diagnostics) = if let Some(known) = self.structures.0.get(&full) {
+                known.clone()
             } else {
                 let (index, found) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
-                let index = Arc::new(index);
-                let structure = (Arc::clone(&full), Arc::clone(&index), found.clone());
-                self.structures.0.push(structure);
-                (index, found)
+                let structure = (Arc::new(index), found);
+                self.structures.0.insert(Arc::clone(&full), structure.clone());
+                structure
             };
             self.names.push(Arc::clone(&full));
             self.opened.push(Opened {
