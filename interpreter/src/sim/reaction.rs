@@ -40,6 +40,10 @@ impl Simulation {
             return;
         }
         self.react(chain, reaction);
+        if matches!(fault, Fault::Swings { .. }) {
+            // with its loop closed the axis never comes to rest
+            self.chains[chain].open_loop();
+        }
         self.stop(vec![(chain, condition)]);
     }
 
@@ -88,8 +92,6 @@ impl Simulation {
             self.frozen[i].get_or_insert(here);
             match reaction {
                 Reaction::OpenLoopStop => self.chains[i].open_loop(),
-                // with its loop closed an unstable axis never comes to rest
-                Reaction::AllStop if i == chain => self.chains[i].open_loop(),
                 Reaction::AbruptStop => self.chains[i].halt(),
                 Reaction::None
                 | Reaction::ProgramAbort
