@@ -6,6 +6,7 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
+use tempfile::TempDir;
 
 /// Result of a command.
 #[derive(Debug)]
@@ -34,6 +35,78 @@ impl Write for Buffer {
 
     fn flush(&mut self) -> std::io::Result<()> {
         Ok(())
+    }
+}
+
+/// A folder for the files of a test, and the command line over it.
+#[derive(Debug)]
+pub struct Folder(TempDir);
+
+impl Folder {
+    /// A folder with files.
+    pub fn new(files: &[(&str, &str)]) -> Self {
+        let folder = Self(tempfile::tempdir().unwrap());
+        files.iter().fold(folder, |folder, (name, text)| folder.with(name, text))
+    }
+
+    /// With a file more, perhaps in a folder of its own.
+    #[must_use]
+    pub fn with(self, name: &str, text: impl AsRef<[u8]>) -> Self {
+        let path = self.0.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+        self
+    }
+
+    /// Path of a file in it.
+    pub fn path(&self, name: &str) -> String {
+        self.0.path().join(name).to_str().unwrap().to_owned()
+    }
+
+    /// Text of a file in it.
+    pub fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// A table in it.
+    pub fn table(&self, name: &str) -> Table {
+        let mut reader = csv::Reader::from_path(self.path(name)).unwrap();
+        let names = reader.headers().unwrap().clone();
+        Table { names, rows: reader.records().map(Result::unwrap).collect() }
+    }
+
+    /// Runs `kontur`; words that start with `@` are files of the folder.
+    pub fn call(&self, words: &[&str]) -> Output {
+        let word =
+            |word: &&str| word.strip_prefix('@').map_or((*word).to_owned(), |f| self.path(f));
+        command(words.iter().map(word))
+    }
+
+    /// The summary of a run of `part.nc` that finishes.
+    pub fn summary(&self, more: &[&str]) -> serde_json::Value {
+        let done = self.call(&[&["run", "@part.nc", "--summary", "json"], more].concat());
+        assert_eq!(done.exit, Exit::Finished, "{}", done.err);
+        serde_json::from_str(&done.out).unwrap()
+    }
+}
+
+/// A table with a header.
+#[derive(Debug)]
+pub struct Table {
+    names: csv::StringRecord,
+    rows: Vec<csv::StringRecord>,
+}
+
+impl Table {
+    /// The cells of a column.
+    pub fn texts(&self, name: &str) -> Vec<&str> {
+        let place = self.names.iter().position(|n| n == name).expect(name);
+        self.rows.iter().map(|row| &row[place]).collect()
+    }
+
+    /// The numbers of a column.
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        self.texts(name).into_iter().map(|cell| cell.parse().unwrap()).collect()
     }
 }
 

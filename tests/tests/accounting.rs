@@ -3,39 +3,8 @@
 mod sweeps;
 
 use kontur::Exit;
-use kontur_tests::command::{command, near};
+use kontur_tests::command::{Folder, near};
 use serde_json::Value;
-use tempfile::TempDir;
-
-struct Folder(TempDir);
-
-impl Folder {
-    fn new(files: &[(&str, &str)]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        for (name, text) in files {
-            std::fs::write(folder.path().join(name), text).unwrap();
-        }
-        Self(folder)
-    }
-
-    fn path(&self, name: &str) -> String {
-        self.0.path().join(name).to_str().unwrap().to_owned()
-    }
-
-    /// The summary of `part.nc`.
-    fn summary(&self, more: &[&str]) -> Value {
-        let part = self.path("part.nc");
-        let mut words = vec!["run", &part, "--summary", "json"];
-        words.extend(more);
-        let done = command(&words);
-        assert_eq!(done.exit, Exit::Finished, "{}", done.err);
-        serde_json::from_str(&done.out).unwrap()
-    }
-
-    fn text(&self) -> String {
-        command(["run", &self.path("part.nc")]).out
-    }
-}
 
 const PART: &str = "N10 G01 X10 F6000\nN20 L corner.nc\nN30 X0 Y0\nM30\n";
 /// Its corner is the point of the largest deviation of the guard from the contour.
@@ -47,27 +16,20 @@ fn places_in_subroutines_name_their_file() {
     let guarded = format!("#VIB GUARD ON [MODE=1 FREQ=20]\n{PART}");
     let folder = Folder::new(&[("part.nc", &guarded), ("corner.nc", CORNER)]);
     let (part, corner) = (folder.path("part.nc"), folder.path("corner.nc"));
-    let trace = folder.path("a.csv");
-    let summary = folder.summary(&["-o", &trace]);
-    let text = std::fs::read_to_string(&trace).unwrap();
-    let mut lines = text.lines().map(|l| l.split(',').collect::<Vec<_>>());
-    let header = lines.next().unwrap();
-    let place = |name| header.iter().position(|h| *h == name).unwrap();
-    let (file, line) = (place("file"), place("line"));
-    let mut seen: Vec<(String, String)> =
-        lines.map(|row| (row[file].to_owned(), row[line].to_owned())).collect();
-    seen.dedup();
-    let want = [(&part, "2"), (&corner, "3"), (&corner, "4"), (&part, "4")];
-    let moved: Vec<_> = seen.iter().map(|(f, l)| (f, l.as_str())).collect();
-    for w in want {
+    let summary = folder.summary(&["-o", "@a.csv"]);
+    let table = folder.table("a.csv");
+    let mut moved: Vec<_> = table.texts("file").into_iter().zip(table.texts("line")).collect();
+    moved.dedup();
+    for w in [(&*part, "2"), (&corner, "3"), (&corner, "4"), (&part, "4")] {
         assert!(moved.contains(&w), "{w:?}: {moved:?}");
     }
-    assert!(!moved.contains(&(&part, "3")), "line 3 of the program calls and does not move");
+    assert!(!moved.contains(&(&*part, "3")), "line 3 of the program calls and does not move");
     let worst = &summary["max_contour_error"];
     assert_eq!(worst["file"], corner.as_str(), "{worst}");
-    assert!(folder.text().contains(&format!(" of {corner}\n")), "{}", folder.text());
+    let text = folder.call(&["run", "@part.nc"]).out;
+    assert!(text.contains(&format!(" of {corner}\n")), "{text}");
     // Parquet and a comparison of the two forms give it too
-    let again = command(["diff", &trace, &part]);
+    let again = folder.call(&["diff", "@a.csv", "@part.nc"]);
     assert_eq!(again.exit, Exit::Finished, "{}{}", again.out, again.err);
 }
 
@@ -77,9 +39,8 @@ fn a_file_that_the_check_did_not_see() {
     // the check assumes every axis to be at its set position; on the machine they lag by some micrometres
     let text = "G01 X10 F6000\n$IF V.A.ACT_POS.X < 10\nL late.nc\n$ENDIF\nG01 X0\nM30\n";
     let folder = Folder::new(&[("part.nc", text), ("late.nc", "G60 G01 Y5\nM17\n")]);
-    let trace = folder.path("a.csv");
-    let summary = folder.summary(&["-o", &trace]);
-    assert!(std::fs::read_to_string(&trace).unwrap().contains("late.nc"));
+    let summary = folder.summary(&["-o", "@a.csv"]);
+    assert!(folder.read("a.csv").contains("late.nc"));
     let stops = summary["stops"].to_string();
     assert!(stops.contains("late.nc"), "{stops}");
     assert!(!stops.contains("\"file\":\"\""), "{stops}");
@@ -97,8 +58,7 @@ fn the_ideal_time_is_that_of_the_path() {
     ] {
         for limit in ["0.7", "1.234", "2.9", "100"] {
             let folder = Folder::new(&[("part.nc", &text)]);
-            let part = folder.path("part.nc");
-            let done = command(["run", &part, "--summary", "json", "--max-time", limit]);
+            let done = folder.call(&["run", "@part.nc", "--summary", "json", "--max-time", limit]);
             let summary: Value = serde_json::from_str(&done.out).unwrap();
             let path_mm = summary["path_length_mm"].as_f64().unwrap();
             near(&summary["ideal_duration_s"], path_mm / 10.0, 1e-6);
@@ -117,7 +77,7 @@ fn arrival_begins_after_the_last_motion() {
     let spindle = "S[M19 POS=90 REV100]\nG01 X1 F600\nM30\n";
     assert!(summary(spindle)["arrival_s"].as_f64().unwrap() < alone + 2e-3);
     let folder = Folder::new(&[("part.nc", axis), ("hold.csv", "t_s,feedhold\n0.3,1\n0.6,0\n")]);
-    let held = folder.summary(&["--input", &folder.path("hold.csv")]);
+    let held = folder.summary(&["--input", "@hold.csv"]);
     near(&held["arrival_s"], alone, 2e-3);
     // from the hold to the release, without the braking
     near(&held["held_s"], 0.3, 0.05);
@@ -131,7 +91,7 @@ fn dwells_and_rapids() {
     let summary = folder.summary(&[]);
     near(&summary["dwell_s"], 0.75, 2e-3);
     near(&summary["ideal_duration_s"], 0.1 + 10.0 / 1000.0, 1e-9);
-    let text = folder.text();
+    let text = folder.call(&["run", "@part.nc"]).out;
     assert!(text.contains("  dwells         0.75"), "{text}");
     let shares = text.lines().find(|l| l.contains("speed limited by")).unwrap();
     let share = |name: &str| -> f64 {
@@ -222,22 +182,17 @@ fn kinds_of_synchronisation() {
         ("MVS_SNS", 1_200_000, 0.45, "75.0000000"),
         ("MNS_SNS", 500_000, 0.5, "75.0000000"),
     ] {
-        let trace = folder.path("a.csv");
         let kind = format!("channel.m_synch[25]={kind}");
         let time = format!("channel.m_prozess_zeit[25]={us}");
-        let words = ["--set", &kind, "--set", &time, "--techno-times", "-o", &trace];
+        let words = ["--set", &kind, "--set", &time, "--techno-times", "-o", "@a.csv"];
         let summary = folder.summary(&[&words[..], &["--signals", "path,ipo"]].concat());
         near(&summary["technology_s"], wait_s, 1e-9);
         // without the option, the functions for which the control would wait are named
         let named = folder.summary(&words[..4])["not_counted"].as_array().unwrap().len();
         assert_eq!(named, usize::from(!kind.ends_with("NO_SYNCH") && !kind.ends_with("MOS")));
-        let text = std::fs::read_to_string(&trace).unwrap();
-        let mut rows = text.lines().map(|l| l.split(',').collect::<Vec<_>>());
-        let names = rows.next().unwrap();
-        let column = |name: &str| names.iter().position(|n| *n == name).unwrap();
-        let (v, x) = (column("v_mm_s"), column("X_ipo_mm"));
-        let stood: Vec<&str> =
-            rows.filter(|r| r[v].parse::<f64>().unwrap() == 0.0).map(|r| r[x]).collect();
+        let table = folder.table("a.csv");
+        let rows = table.numbers("v_mm_s").into_iter().zip(table.texts("X_ipo_mm"));
+        let stood: Vec<&str> = rows.filter(|(v, _)| *v == 0.0).map(|(_, x)| x).collect();
         let rests = |at: &&str| stood.iter().filter(|x| *x == at).count() > 100;
         let rest = ["50.0000000", "75.0000000"].into_iter().find(rests).unwrap_or_default();
         assert_eq!(rest, at, "{kind} {us}");
@@ -249,28 +204,20 @@ fn kinds_of_synchronisation() {
 fn functions_that_take_time_stop_the_path() {
     let text = "G01 X10 F6000\nX20 M7\nX30\nX40 M5\nX50\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
-    let trace = folder.path("a.csv");
-    let words = [
-        &DECLARED[..],
-        &["--set", "channel.spindel[0].m5_prozess_zeit=250000", "--techno-times", "-o", &trace],
-    ];
+    let m5 = "channel.spindel[0].m5_prozess_zeit=250000";
+    let words = [&DECLARED[..], &["--set", m5, "--techno-times", "-o", "@a.csv"]];
     let summary = folder.summary(&words.concat());
     near(&summary["technology_s"], 0.75, 1e-9);
-    let text = std::fs::read_to_string(&trace).unwrap();
-    let rows: Vec<Vec<&str>> = text.lines().map(|l| l.split(',').collect()).collect();
-    let head = &rows[0];
-    let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
-    let (line, x, v) = (column("line"), column("X_ipo_mm"), column("v_mm_s"));
+    let table = folder.table("a.csv");
+    let (lines, x, v) = (table.texts("line"), table.texts("X_ipo_mm"), table.numbers("v_mm_s"));
     let resting = |at: &str, of: &str| {
-        let rests =
-            |r: &&Vec<&str>| r[v].parse::<f64>().unwrap() == 0.0 && r[x] == at && r[line] == of;
-        rows.iter().skip(1).filter(rests).count()
+        (0..v.len()).filter(|k| v[*k] == 0.0 && x[*k] == at && lines[*k] == of).count()
     };
     assert_eq!(resting("10.0000000", "2"), 500);
     assert_eq!(resting("40.0000000", "4"), 251, "250, and the one in which it stops");
     let slowest = |at: f64| {
-        let near = rows[1..].iter().filter(|r| (r[x].parse::<f64>().unwrap() - at).abs() < 1.0);
-        near.map(|r| r[v].parse::<f64>().unwrap()).fold(f64::INFINITY, f64::min)
+        let rows = table.numbers("X_ipo_mm").into_iter().zip(&v);
+        rows.filter(|(x, _)| (x - at).abs() < 1.0).fold(f64::INFINITY, |low, (_, v)| low.min(*v))
     };
     assert!(slowest(20.0) > 99.0 && slowest(30.0) > 99.0);
 }
@@ -280,18 +227,17 @@ fn functions_that_take_time_stop_the_path() {
 fn every_message_is_json_if_asked_for() {
     let folder =
         Folder::new(&[("part.nc", "G01 X1 F100\nFOO\nM30\n"), ("ok.nc", "G01 X1 F100\nM30\n")]);
-    let (part, ok, none) = (folder.path("part.nc"), folder.path("ok.nc"), folder.path("none.nc"));
     let vary = ["--vary", "*.vib_guard.freq=20,40", "--columns", "duration_s"];
     let cases: [Vec<&str>; 6] = [
-        vec!["check", &none, &part],
-        vec!["run", &part],
-        vec!["run", &ok, "--set", "X.foo=1"],
-        vec!["run", &ok, "--set", "X.getriebe[0].kv=a"],
-        vec!["run", &ok, "-o", "/nowhere/a.csv"],
-        [&["sweep", &ok][..], &vary].concat(),
+        vec!["check", "@none.nc", "@part.nc"],
+        vec!["run", "@part.nc"],
+        vec!["run", "@ok.nc", "--set", "X.foo=1"],
+        vec!["run", "@ok.nc", "--set", "X.getriebe[0].kv=a"],
+        vec!["run", "@ok.nc", "-o", "/nowhere/a.csv"],
+        [&["sweep", "@ok.nc"][..], &vary].concat(),
     ];
     for case in cases {
-        let done = command([&case[..], &["--diagnostics", "json"]].concat());
+        let done = folder.call(&[&case[..], &["--diagnostics", "json"]].concat());
         assert!(!done.err.is_empty(), "{case:?}");
         for line in done.err.lines() {
             let object: Value =

@@ -2,7 +2,7 @@
 
 use kontur::Exit;
 use kontur_interpreter::diag::{Condition, Id};
-use kontur_tests::command::{command, run_line};
+use kontur_tests::command::{Folder, run_line};
 use kontur_tests::{Run, machine, programs, run, run_on, sample_machine};
 use std::ops::RangeInclusive;
 
@@ -139,19 +139,15 @@ fn every_command_of_the_lessons_runs() {
 /// The exercises of the lessons: the results of their formulas are what happens.
 #[test]
 fn the_exercises_have_their_answers() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new(&[]);
     let lesson = |name: &str, replace: &[(&str, &str)], more: &[&str]| -> serde_json::Value {
         let mut program = text(&format!("lessons/{name}.nc"));
         for (what, by) in replace {
             assert!(program.contains(what));
             program = program.replace(what, by);
         }
-        let path = folder.path().join("exercise.nc");
-        std::fs::write(&path, program).unwrap();
-        let words = ["run", path.to_str().unwrap(), "--summary", "json"];
-        let outcome = command([&words[..], more].concat());
-        assert_eq!(outcome.exit, Exit::Finished, "{}", outcome.err);
-        serde_json::from_str(&outcome.out).unwrap()
+        std::fs::write(folder.path("part.nc"), program).unwrap();
+        folder.summary(more)
     };
     let number = |s: &serde_json::Value, key: &str| s[key].as_f64().unwrap();
     let path_s = |s: &serde_json::Value| number(s, "duration_s") - number(s, "arrival_s");
@@ -169,14 +165,9 @@ fn the_exercises_have_their_answers() {
     // path length and another column of a run
     let trace =
         |name: &str, replace: &[(&str, &str)], more: &[&str], column: &str| -> Vec<(f64, f64)> {
-            let trace = folder.path().join("trace.csv");
-            lesson(name, replace, &[more, &["-o", trace.to_str().unwrap()]].concat());
-            let mut rows = csv::Reader::from_path(&trace).unwrap();
-            let head = rows.headers().unwrap().clone();
-            let place = |name: &str| head.iter().position(|h| h == name).unwrap();
-            let (s, value) = (place("s_mm"), place(column));
-            let rows = rows.records().map(|r| r.unwrap());
-            rows.map(|r| (r[s].parse().unwrap(), r[value].parse().unwrap())).collect()
+            lesson(name, replace, &[more, &["-o", "@trace.csv"]].concat());
+            let trace = folder.table("trace.csv");
+            trace.numbers("s_mm").into_iter().zip(trace.numbers(column)).collect()
         };
     let slowest = |name: &str, replace: &[(&str, &str)]| -> f64 {
         let rows = trace(name, replace, &[], "v_mm_s").into_iter();

@@ -1,7 +1,7 @@
 //! Override, additional interface, force and encoder offset from time-stamped inputs, in runs of programs.
 
 use kontur_kit::near;
-use kontur_tests::command::command;
+use kontur_tests::command::{Folder, command};
 use kontur_tests::{Run, machine, run_with_inputs};
 
 fn x_at(run: &Run, time_s: f64) -> f64 {
@@ -86,15 +86,13 @@ fn sample_of_feedhold_and_override() {
     assert!(json.out.contains("\"held_s\":0.385,"), "{json:?}");
     let text = command(["run", &program, "--input", &csv]).out;
     assert!(text.contains("held           0.385 s"), "{text}");
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Folder::new(&[("semicolons.csv", "t_s;override_percent\n0;50\n")]);
     // mistakes in a file refuse run and check; a missing file is not a mistake in a file
     for verb in ["run", "check"] {
         let refused = command([verb, &program, "--input", &program]);
         assert_eq!(refused.exit, kontur::Exit::Usage);
         assert!(refused.err.contains("K-0076") && refused.err.contains("t_s"), "{refused:?}");
-        let semicolons = folder.path().join("semicolons.csv").display().to_string();
-        std::fs::write(&semicolons, "t_s;override_percent\n0;50\n").unwrap();
-        let refused = command([verb, &program, "--input", &semicolons]);
+        let refused = folder.call(&[verb, &program, "--input", "@semicolons.csv"]);
         assert_eq!(refused.exit, kontur::Exit::Usage);
         assert!(refused.err.contains("separated by semicolons"), "{refused:?}");
         let absent = command([verb, &program, "--input", "no_such_file.csv"]);

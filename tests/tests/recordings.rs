@@ -1,17 +1,16 @@
 //! `kontur diff` between a program and the recording of a machine, in the export format of TwinCAT Scope.
 
 use kontur::Exit;
-use kontur_tests::command::{command, near};
+use kontur_tests::command::{Folder, near};
+use serde_json::Value;
 use std::fmt::Write as _;
 use std::ops::Range;
-use std::path::PathBuf;
-use tempfile::TempDir;
 
 /// Two axes, TRAPEZ, with a dwell in between.
 const PROGRAM: &str = "%P\nN10 G90 G01 X20 Y-5 F6000\nN20 G04 0.1\nN30 X-3 Y7.5 F4000\nN40 M30\n";
 
 struct Bench {
-    folder: TempDir,
+    folder: Folder,
     /// Set positions of X and Y in mm, one pair per millisecond.
     set: Vec<[f64; 2]>,
 }
@@ -32,27 +31,10 @@ const PLAIN: Recorder = Recorder { lead_s: 0.012, step_s: 0.001, noise_mm: 0.0, 
 
 impl Bench {
     fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        std::fs::write(folder.path().join("part.nc"), PROGRAM).unwrap();
-        let bench = Self { folder, set: Vec::new() };
-        let trace = bench.path("part.csv");
-        let words = ["run", &bench.path("part.nc"), "-o", &trace, "--signals", "X_set_mm,Y_set_mm"];
-        assert_eq!(command(words).exit, Exit::Finished);
-        let text = std::fs::read_to_string(&trace).unwrap();
-        let mut lines = text.lines();
-        let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-        let place = |name| header.iter().position(|h| *h == name).unwrap();
-        let places = [place("X_set_mm"), place("Y_set_mm")];
-        let row = |line: &str| {
-            let cells: Vec<&str> = line.split(',').collect();
-            places.map(|i| cells[i].parse().unwrap())
-        };
-        Self { set: lines.map(row).collect(), ..bench }
-    }
-
-    fn path(&self, name: &str) -> String {
-        let path: PathBuf = self.folder.path().join(name);
-        path.to_str().unwrap().to_owned()
+        let folder = Folder::new(&[("part.nc", PROGRAM)]);
+        folder.summary(&["-o", "@part.csv", "--signals", "X_set_mm,Y_set_mm"]);
+        let [x, y] = ["X_set_mm", "Y_set_mm"].map(|name| folder.table("part.csv").numbers(name));
+        Self { folder, set: x.into_iter().zip(y).map(|(x, y)| [x, y]).collect() }
     }
 
     /// Position at a time, at rest before the beginning and after the end.
@@ -86,20 +68,23 @@ impl Bench {
         text
     }
 
-    fn diff(&self, export: &str) -> (Exit, serde_json::Value) {
+    fn diff(&self, export: &str) -> (Exit, Value) {
         self.diff_within(export, "0")
     }
 
-    fn diff_within(&self, export: &str, tolerance_mm: &str) -> (Exit, serde_json::Value) {
-        std::fs::write(self.path("scope.csv"), export).unwrap();
-        let (program, scope) = (self.path("part.nc"), self.path("scope.csv"));
-        let maps = ["--map", "X_set_mm=-0.001*Axes.X.fSet", "--map", "Y_set_mm=Axes.Y.fSet"];
-        let mut words = vec!["diff", &program, &scope, "--format", "json"];
-        words.extend(["--tol-mm", tolerance_mm]);
-        words.extend(maps);
-        let done = command(&words);
-        (done.exit, serde_json::from_str(&done.out).unwrap_or_else(|_| panic!("{}", done.err)))
+    fn diff_within(&self, export: &str, tolerance_mm: &str) -> (Exit, Value) {
+        let maps = ["X_set_mm=-0.001*Axes.X.fSet", "Y_set_mm=Axes.Y.fSet"];
+        diff(&self.folder, export, &maps, tolerance_mm)
     }
+}
+
+/// A comparison of `part.nc` with a recording of X and Y: exit code and answer.
+fn diff(folder: &Folder, recording: &str, maps: &[&str; 2], tolerance_mm: &str) -> (Exit, Value) {
+    std::fs::write(folder.path("scope.csv"), recording).unwrap();
+    let words = ["diff", "@part.nc", "@scope.csv", "--format", "json", "--tol-mm", tolerance_mm];
+    let maps = ["--map", maps[0], "--map", maps[1]];
+    let done = folder.call(&[&words[..], &maps].concat());
+    (done.exit, serde_json::from_str(&done.out).unwrap_or_else(|_| panic!("{}", done.err)))
 }
 
 /// Another unit and sign, a beginning 12 cycles earlier or 3.4 ms later, other sampling times, noise below 0.1 um: equal.
@@ -179,12 +164,10 @@ fn drop_outs_and_ends() {
 /// and counts the rest.
 #[test]
 fn rest_and_many_drop_outs() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    std::fs::write(path("part.nc"), "G04 0.2\nM30\n").unwrap();
     let rows: Vec<String> = (0..400).filter(|k| k % 10 != 5).map(|k| format!("{k}\t0\n")).collect();
-    std::fs::write(path("scope.txt"), format!("time_ms\tX\n{}", rows.concat())).unwrap();
-    let done = command(["diff", &path("part.nc"), &path("scope.txt"), "--map", "X_set_mm=X"]);
+    let recording = format!("time_ms\tX\n{}", rows.concat());
+    let folder = Folder::new(&[("part.nc", "G04 0.2\nM30\n"), ("scope.txt", &recording)]);
+    let done = folder.call(&["diff", "@part.nc", "@scope.txt", "--map", "X_set_mm=X"]);
     assert_eq!(done.exit, Exit::Finished, "{}{}", done.out, done.err);
     assert!(done.out.contains("  shift  none\n"), "{}", done.out);
     assert_eq!(done.out.matches("drop-out  1 sample missing").count(), 10, "{}", done.out);
@@ -209,7 +192,6 @@ fn table(bench: &Bench, step_s: f64, decimals: usize, y_from_s: f64) -> String {
 #[test]
 fn clocks_and_rounded_times() {
     let bench = Bench::new();
-    let program = bench.path("part.nc");
     for (step_s, decimals, y_from_s, tolerance_mm) in [
         (0.001, 4, 0.0, "0"),
         (0.001, 4, 0.1, "0"),
@@ -217,13 +199,9 @@ fn clocks_and_rounded_times() {
         (1.0 / 3000.0, 4, 0.05, "0.002"),
         (0.0025, 3, 0.0, "0.005"),
     ] {
-        std::fs::write(bench.path("t.csv"), table(&bench, step_s, decimals, y_from_s)).unwrap();
-        let (file, maps) = (bench.path("t.csv"), ["--map", "X_set_mm=x", "--map", "Y_set_mm=y"]);
-        let mut words = vec!["diff", &program, &file, "--tol-mm", tolerance_mm];
-        words.extend(["--format", "json"]);
-        words.extend(maps);
-        let done = command(words);
-        let found: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+        let recording = table(&bench, step_s, decimals, y_from_s);
+        let maps = ["X_set_mm=x", "Y_set_mm=y"];
+        let (_, found) = diff(&bench.folder, &recording, &maps, tolerance_mm);
         let result = &found["result"];
         near(&result["shift_cycles"], 0.0, 0.1);
         for pair in 0..2 {
@@ -234,8 +212,9 @@ fn clocks_and_rounded_times() {
         assert_eq!(result["pairs"][1]["trace_goes_on"], y_from_s > 0.0);
     }
     // 1.5 ms rounded to milliseconds: off by a third of a step
-    std::fs::write(bench.path("t.csv"), table(&bench, 0.0015, 3, 0.0)).unwrap();
-    let done = command(["diff", &program, &bench.path("t.csv"), "--map", "X_set_mm=x"]);
+    let recording = table(&bench, 0.0015, 3, 0.0);
+    let folder = bench.folder.with("t.csv", recording);
+    let done = folder.call(&["diff", "@part.nc", "@t.csv", "--map", "X_set_mm=x"]);
     assert!(done.exit == Exit::Usage && done.err.contains("equal steps"), "{}", done.err);
 }
 
@@ -250,10 +229,9 @@ fn a_recording_with_fewer_samples_is_compared_at_its_samples() {
                 let x = if spoiled && k / each == 20 { x + 1e-3 } else { *x };
                 let _ = writeln!(text, "{},{x},{y}", k as f64 * 1e-3);
             }
-            std::fs::write(bench.path("coarse.csv"), text).unwrap();
-            let words =
-                ["diff", &bench.path("part.nc"), &bench.path("coarse.csv"), "--map", "X_set_mm=x"];
-            let said = command(words);
+            std::fs::write(bench.folder.path("coarse.csv"), text).unwrap();
+            let words = ["diff", "@part.nc", "@coarse.csv", "--map", "X_set_mm=x"];
+            let said = bench.folder.call(&words);
             let expected = if spoiled { Exit::Aborted } else { Exit::Finished };
             assert_eq!(said.exit, expected, "{each}: {}", said.out);
             let differ = format!("{} differ by", u32::from(spoiled));
@@ -266,13 +244,10 @@ fn a_recording_with_fewer_samples_is_compared_at_its_samples() {
 /// although the last rows lie between two of them; a recording that ends two samples earlier is not.
 #[test]
 fn the_phase_of_the_samples_does_not_matter() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    std::fs::write(path("part.nc"), "N10 G01 X10 F6000\nN20 Y10\nM30\n").unwrap();
-    let words = ["run", &path("part.nc"), "-o", &path("part.csv"), "--signals", "Y_act_mm"];
-    assert_eq!(command(words).exit, Exit::Finished);
-    let trace = std::fs::read_to_string(path("part.csv")).unwrap();
-    let y: Vec<&str> = trace.lines().skip(1).map(|line| line.rsplit(',').next().unwrap()).collect();
+    let folder = Folder::new(&[("part.nc", "N10 G01 X10 F6000\nN20 Y10\nM30\n")]);
+    folder.summary(&["-o", "@part.csv", "--signals", "Y_act_mm"]);
+    let trace = folder.table("part.csv");
+    let y = trace.texts("Y_act_mm");
     let end = y.len() - 1;
     assert!((y[end].parse::<f64>().unwrap() - y[end - 2].parse::<f64>().unwrap()).abs() > 1e-3);
     for each in [2, 3, 4, 10] {
@@ -281,16 +256,12 @@ fn the_phase_of_the_samples_does_not_matter() {
                 let last = if short { end + lead - 2 * each } else { end + lead + 3 * each };
                 let mut text = String::from("t_s,y\n");
                 for k in (0..=last).step_by(each) {
-                    let _ = writeln!(
-                        text,
-                        "{:.3},{}",
-                        k as f64 * 1e-3,
-                        y[k.saturating_sub(lead).min(end)]
-                    );
+                    let row = y[k.saturating_sub(lead).min(end)];
+                    let _ = writeln!(text, "{:.3},{row}", k as f64 * 1e-3);
                 }
-                std::fs::write(path("coarse.csv"), text).unwrap();
-                let words = ["diff", &path("part.nc"), &path("coarse.csv"), "--map", "Y_act_mm=y"];
-                let said = command(words);
+                std::fs::write(folder.path("coarse.csv"), text).unwrap();
+                let words = ["diff", "@part.nc", "@coarse.csv", "--map", "Y_act_mm=y"];
+                let said = folder.call(&words);
                 let expected = if short { Exit::Aborted } else { Exit::Finished };
                 assert_eq!(said.exit, expected, "{each} {lead} {short}: {}", said.out);
             }
@@ -302,34 +273,22 @@ fn the_phase_of_the_samples_does_not_matter() {
 /// turns and differ only where the motion begins or ends.
 #[test]
 fn a_motion_that_repeats_itself_is_not_shifted_by_a_turn() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let turns = "G03 I-10 X10 Y0\n".repeat(30);
-    std::fs::write(path("part.nc"), format!("G01 X10 F6000\n{turns}M30\n")).unwrap();
-    let columns = "X_act_mm,Y_act_mm";
-    let words = ["run", &path("part.nc"), "-o", &path("part.csv"), "--signals", columns];
-    assert_eq!(command(words).exit, Exit::Finished);
-    let trace = std::fs::read_to_string(path("part.csv")).unwrap();
-    let rows: Vec<&str> =
-        trace.lines().skip(1).map(|line| line.splitn(4, ',').last().unwrap()).collect();
+    let folder = Folder::new(&[("part.nc", &format!("G01 X10 F6000\n{turns}M30\n"))]);
+    folder.summary(&["-o", "@part.csv", "--signals", "X_act_mm,Y_act_mm"]);
+    let trace = folder.table("part.csv");
+    let rows: Vec<_> = trace.texts("X_act_mm").into_iter().zip(trace.texts("Y_act_mm")).collect();
     for begin in [1000, 2000, 3000, 5000] {
         let mut text = String::from("t_s,x,y\n");
-        for (k, row) in rows[begin..].iter().enumerate() {
-            let _ = writeln!(text, "{:.3},{row}", k as f64 * 1e-3);
+        for (k, (x, y)) in rows[begin..].iter().enumerate() {
+            let _ = writeln!(text, "{:.3},{x},{y}", k as f64 * 1e-3);
         }
-        std::fs::write(path("scope.csv"), text).unwrap();
-        let maps = ["--map", "X_act_mm=x", "--map", "Y_act_mm=y"];
-        let mut words = vec!["diff", "--format", "json"];
-        let files = [path("part.csv"), path("scope.csv")];
-        words.extend(files.iter().map(String::as_str));
-        words.extend(maps);
-        let done = command(words);
-        let found: serde_json::Value = serde_json::from_str(&done.out).unwrap();
+        let (exit, found) = diff(&folder, &text, &["X_act_mm=x", "Y_act_mm=y"], "0");
         near(&found["result"]["shift_cycles"], -(begin as f64), 1e-3);
         for pair in 0..2 {
             assert_eq!(found["result"]["pairs"][pair]["different"], 0, "{begin}: {found}");
         }
         // the trace moves before the recording begins
-        assert_eq!(done.exit, Exit::Aborted);
+        assert_eq!(exit, Exit::Aborted);
     }
 }

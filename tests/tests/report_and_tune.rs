@@ -2,14 +2,9 @@
 
 use kontur::Exit;
 use kontur_kit::Oscillator;
-use kontur_tests::command::command;
+use kontur_tests::command::Folder;
 use kontur_tests::{Run, programs, run};
 use serde_json::Value;
-use std::path::Path;
-
-fn path(folder: &Path, name: &str) -> String {
-    folder.join(name).to_str().unwrap().to_owned()
-}
 
 /// The runs in the page that `kontur report` makes for programs with settings.
 fn page(texts: &[&str], settings: &str) -> Vec<Value> {
@@ -18,19 +13,14 @@ fn page(texts: &[&str], settings: &str) -> Vec<Value> {
 
 /// All data of such a page.
 fn whole_page(texts: &[&str], settings: &str) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let html = path(folder.path(), "report.html");
-    let mut words = vec!["report".to_owned()];
-    for (i, text) in texts.iter().enumerate() {
-        let name = path(folder.path(), &format!("part{i}.nc"));
-        std::fs::write(&name, text).unwrap();
-        words.push(name);
-    }
-    words.extend(settings.split_whitespace().flat_map(|s| ["--set".to_owned(), s.to_owned()]));
-    words.extend(["-o".to_owned(), html.clone()]);
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    assert_ne!(command(&words).exit, Exit::Usage, "{words:?}");
-    let html = std::fs::read_to_string(html).unwrap();
+    let names = ["part0.nc", "part1.nc"];
+    let parts: Vec<(&str, &str)> = names.into_iter().zip(texts.iter().copied()).collect();
+    let folder = Folder::new(&parts);
+    let mut words = vec!["report", "-o", "@report.html"];
+    words.extend(&["@part0.nc", "@part1.nc"][..texts.len()]);
+    words.extend(settings.split_whitespace().flat_map(|s| ["--set", s]));
+    assert_ne!(folder.call(&words).exit, Exit::Usage, "{words:?}");
+    let html = folder.read("report.html");
     let data = html.split("type=\"application/json\">").nth(1).unwrap();
     serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
 }
@@ -70,10 +60,10 @@ fn the_load_of_a_spring_with_and_without_the_guard() {
 #[test]
 fn the_three_passes_of_the_square_are_overlaid() {
     let square = programs().join("square_corner.nc");
-    let folder = tempfile::tempdir().unwrap();
-    let svg = path(folder.path(), "square.svg");
-    assert_eq!(command(["report", square.to_str().unwrap(), "-o", &svg]).exit, Exit::Finished);
-    let picture = std::fs::read_to_string(svg).unwrap();
+    let folder = Folder::new(&[]);
+    let drawn = folder.call(&["report", square.to_str().unwrap(), "-o", "@square.svg"]);
+    assert_eq!(drawn.exit, Exit::Finished);
+    let picture = folder.read("square.svg");
     let errors: Vec<f64> = (1..=3)
         .map(|pass| {
             let label = picture.split(&format!("set, pass {pass}, lines ")).nth(1).unwrap();
@@ -148,11 +138,10 @@ fn driven(text: &str) -> (f64, f64) {
 /// The choice for a real program: pasted into it, it gives the time and keeps the deviation stated in the table.
 #[test]
 fn a_choice_for_a_program_does_what_it_says() {
-    let folder = tempfile::tempdir().unwrap();
-    let part = path(folder.path(), "part.nc");
     let blocks = "G90 G01 F3000\nX4\nY4\nX1 Y2\nX0 Y0\nM30\n";
-    std::fs::write(&part, format!("%PART\n{blocks}")).unwrap();
-    let output = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "0.01"]);
+    let folder = Folder::new(&[("part.nc", &format!("%PART\n{blocks}"))]);
+    let tune = ["tune", "--freq", "38,42", "--program", "@part.nc", "--max-dev"];
+    let output = folder.call(&[&tune[..], &["0.01"]].concat());
     let (exit, text) = (output.exit, output.out);
     assert_eq!(exit, Exit::Finished, "{text}");
     let line = text.lines().find_map(|l| l.strip_prefix("choice    ")).unwrap();
@@ -175,7 +164,7 @@ fn a_choice_for_a_program_does_what_it_says() {
     }
     assert!(rows.iter().any(|r| r.contains(" 0.01 ") && r.ends_with("yes")), "{text}");
     // a bound that is never exceeded costs nothing, and is in the line all the same
-    let text = command(["tune", "--freq", "38,42", "--program", &part, "--max-dev", "5"]).out;
+    let text = folder.call(&[&tune[..], &["5"]].concat()).out;
     assert!(text.contains(" AX_DEV=5]\n"), "{text}");
 }
 
@@ -221,11 +210,9 @@ fn the_spectrum_of_a_page_is_that_of_the_accelerations() {
 /// the guard, whose frequency is then arbitrary, much more remains.
 #[test]
 fn what_a_spring_is_left_with() {
-    let folder = tempfile::tempdir().unwrap();
-    let (program, svg) = (path(folder.path(), "a.nc"), path(folder.path(), "a.svg"));
-    std::fs::write(&program, SHAPED).unwrap();
-    assert_eq!(command(["report", &program, "-o", &svg]).exit, Exit::Finished);
-    let picture = std::fs::read_to_string(svg).unwrap();
+    let folder = Folder::new(&[("a.nc", SHAPED)]);
+    assert_eq!(folder.call(&["report", "@a.nc", "-o", "@a.svg"]).exit, Exit::Finished);
+    let picture = folder.read("a.svg");
     let title =
         picture.split("Mass on a spring of 25 Hz, damping 0.05; left at the end: ").nth(1).unwrap();
     let said = title.split('<').next().unwrap();

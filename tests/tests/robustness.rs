@@ -1,18 +1,12 @@
 //! Programs made to break an interpreter: each of them ends, and with its diagnostic, on the command line.
 
 use kontur::Exit;
-use kontur_tests::command::command;
-use std::ffi::OsString;
+use kontur_tests::command::Folder;
 
 /// Exit code, IDs with line and column, and the output of `run` on stdout.
 fn call(verb: &str, text: &str, options: &[&str]) -> (Exit, Vec<String>, String) {
-    let folder = tempfile::tempdir().unwrap();
-    let program = folder.path().join("part.nc");
-    std::fs::write(&program, text).unwrap();
-    let mut args: Vec<OsString> = vec![verb.into(), program.into()];
-    args.extend(["--diagnostics", "json"].map(OsString::from));
-    args.extend(options.iter().map(OsString::from));
-    let output = command(args);
+    let folder = Folder::new(&[("part.nc", text)]);
+    let output = folder.call(&[&[verb, "@part.nc", "--diagnostics", "json"], options].concat());
     let said = output.err.lines().filter(|l| l.starts_with('{')).filter_map(|line| {
         let json: serde_json::Value = serde_json::from_str(line).unwrap();
         let id = json["id"].as_u64().map(|id| id.to_string());
@@ -38,25 +32,14 @@ fn refused(text: &str, options: &[&str]) -> Vec<String> {
 fn limits_stop_a_program_and_do_not_refuse_it() {
     let endless = "F6000\n$WHILE 1\nG01 X10\nX0\n$ENDWHILE\nM30\n";
     for (options, limit) in [(["--max-time", "2.5"], 2.5), (["--max-blocks", "100"], f64::MAX)] {
-        let folder = tempfile::tempdir().unwrap();
-        let (program, trace) = (folder.path().join("a.nc"), folder.path().join("a.csv"));
-        std::fs::write(&program, endless).unwrap();
-        let words: [OsString; 8] = [
-            "run".into(),
-            program.clone().into(),
-            "-o".into(),
-            trace.clone().into(),
-            "--summary".into(),
-            "json".into(),
-            options[0].into(),
-            options[1].into(),
-        ];
-        let output = command(words);
+        let folder = Folder::new(&[("a.nc", endless)]);
+        let words = ["run", "@a.nc", "-o", "@a.csv", "--summary", "json"];
+        let output = folder.call(&[&words[..], &options].concat());
         assert_eq!(output.exit, Exit::Aborted, "{}", output.err);
         assert_eq!(output.err.matches("error[K-0017]").count(), 1, "{}", output.err);
         let summary: serde_json::Value = serde_json::from_str(&output.out).unwrap();
         assert_eq!(summary["state"], "aborted");
-        let rows = std::fs::read_to_string(&trace).unwrap().lines().count() - 1;
+        let rows = folder.read("a.csv").lines().count() - 1;
         assert_eq!(summary["cycles"], rows);
         let duration = summary["duration_s"].as_f64().unwrap();
         assert!(duration > 2.0 && duration <= limit, "{options:?}: {duration}");

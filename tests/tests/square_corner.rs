@@ -1,6 +1,7 @@
 //! The main use: the square program end to end, judged only by its trace and its geometry.
 
 use kontur_kit::{from_polyline, largest};
+use kontur_tests::command::Folder;
 use kontur_tests::{machine, programs, residual_mm, run};
 
 fn square() -> Vec<Vec<f64>> {
@@ -84,14 +85,12 @@ fn same_bits_again() {
 /// `cargo run --release -- run programs/square_corner.nc -o tests/golden/square_corner.csv --signals time,ipo,set`.
 #[test]
 fn same_bytes_as_the_release_build() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("t.csv");
-    let words = ["run", "--signals", "time,ipo,set", "--summary", "none"];
-    let mut args: Vec<std::ffi::OsString> = words.iter().map(Into::into).collect();
-    args.push(programs().join("square_corner.nc").into());
-    args.extend(["-o".into(), out.clone().into()]);
-    assert_eq!(kontur_tests::command::command(args).exit, kontur::Exit::Finished);
+    let (folder, program) = (Folder::new(&[]), programs().join("square_corner.nc"));
+    let words = ["run", program.to_str().unwrap(), "--signals", "time,ipo,set", "-o", "@t.csv"];
+    assert_eq!(folder.call(&words).exit, kontur::Exit::Finished);
     let golden = programs().join("../tests/golden/square_corner.csv");
-    let (fresh, golden) = (std::fs::read(out).unwrap(), std::fs::read(golden).unwrap());
-    assert!(fresh == golden, "`kontur diff` of the two shows where they differ");
+    assert!(
+        folder.read("t.csv") == std::fs::read_to_string(golden).unwrap(),
+        "`kontur diff` of the two shows where they differ"
+    );
 }

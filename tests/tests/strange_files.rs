@@ -1,43 +1,14 @@
 //! Files that are not what they seem: programs, subroutines, traces and lists, on the command line.
 
 use kontur::Exit;
-use kontur_tests::command::{Output, command};
+use kontur_tests::command::Folder;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-struct Folder(tempfile::TempDir);
-
-impl Folder {
-    fn new() -> Self {
-        Self(tempfile::tempdir().unwrap())
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn with(self, name: &str, text: impl AsRef<[u8]>) -> Self {
-        if let Some(folder) = Path::new(name).parent() {
-            fs::create_dir_all(self.path("").join(folder)).unwrap();
-        }
-        fs::write(self.path(name), text).unwrap();
-        self
-    }
-
-    /// Words that start with `@` are files of the folder.
-    fn call(&self, words: &[&str]) -> Output {
-        command(words.iter().map(|w| match w.strip_prefix('@') {
-            Some(name) => self.path(name).into_os_string(),
-            None => (*w).into(),
-        }))
-    }
-}
 
 /// The beginning of the block is blanks or a comment, and the motion begins beyond the limit.
 #[test]
 fn a_first_block_that_is_too_long_does_not_vanish() {
     for begin in [" ".repeat(4100), format!("({})", "x".repeat(4100)), ";".repeat(4100)] {
-        let f = Folder::new()
+        let f = Folder::new(&[])
             .with("a.nc", format!("{begin}X1\nM30\n"))
             .with("sub.nc", format!("{begin}X1\n"))
             .with("b.nc", "L sub.nc\nM30\n");
@@ -54,7 +25,7 @@ fn a_first_block_that_is_too_long_does_not_vanish() {
 #[test]
 fn messages_quote_the_beginning_of_a_word() {
     let long = format!("L CYCLE [NAME={}]\nM30\n", "y".repeat(3000));
-    let said = Folder::new().with("a.nc", format!("#{}\n{long}", "X".repeat(3000)));
+    let said = Folder::new(&[]).with("a.nc", format!("#{}\n{long}", "X".repeat(3000)));
     let said = said.call(&["check", "@a.nc", "--diagnostics", "json"]).err;
     for line in said.lines() {
         let json: serde_json::Value = serde_json::from_str(line).unwrap();
@@ -66,9 +37,10 @@ fn messages_quote_the_beginning_of_a_word() {
 /// By absolute names and by links; relative names are rows of the command line.
 #[test]
 fn subroutines_stay_in_the_folder_of_the_program() {
-    let f =
-        Folder::new().with("out.nc", "G01 X1 F6000\n").with("jobs/link.nc", "L linked.nc\nM30\n");
-    let absolute = format!("L \"{}\"\nM30\n", f.path("out.nc").display());
+    let f = Folder::new(&[])
+        .with("out.nc", "G01 X1 F6000\n")
+        .with("jobs/link.nc", "L linked.nc\nM30\n");
+    let absolute = format!("L \"{}\"\nM30\n", f.path("out.nc"));
     let f = f.with("jobs/absolute.nc", absolute);
     let mut leaving = vec!["@jobs/absolute.nc"];
     #[cfg(unix)]
@@ -94,7 +66,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
     let trace = "t_s,line,X_set_mm\n0,1,0.5\n0.001,1,0.5\n";
     let utf16: Vec<u8> =
         trace.encode_utf16().fold(vec![0xFF, 0xFE], |v, c| [v, c.to_le_bytes().to_vec()].concat());
-    let f = Folder::new()
+    let f = Folder::new(&[])
         .with("a.csv", trace)
         .with("bom.csv", format!("\u{feff}{trace}"))
         .with("semicolon.csv", trace.replace(',', ";").replace('.', ","))
@@ -138,7 +110,7 @@ fn tables_of_another_form_are_refused_in_plain_words() {
 #[test]
 #[cfg(unix)]
 fn pipes_are_no_subroutines_lists_or_inputs() {
-    let f = Folder::new().with("a.nc", "L pipe.nc\nM30\n").with("b.nc", "M30\n");
+    let f = Folder::new(&[]).with("a.nc", "L pipe.nc\nM30\n").with("b.nc", "M30\n");
     for name in ["pipe.nc", "pipe.lis", "pipe.csv"] {
         let made = std::process::Command::new("mkfifo").arg(f.path(name)).status().unwrap();
         assert!(made.success());
@@ -159,7 +131,7 @@ fn pipes_are_no_subroutines_lists_or_inputs() {
 /// Cells and names of columns come from the file: they must not move the cursor or fill the screen.
 #[test]
 fn cells_are_quoted_on_one_line_and_shortened() {
-    let f = Folder::new()
+    let f = Folder::new(&[])
         .with("a.csv", "t_s,X_set_mm\n0,1\n")
         .with("b.csv", format!("t_s,\"X_set_mm\n\u{1b}[31m{}\"\n0,1\n", "y".repeat(50_000)))
         .with("c.csv", format!("t_s,X_set_mm\n0,\"\n\u{1b}[2J{}\"\n", "z".repeat(50_000)));
@@ -180,14 +152,14 @@ fn cells_are_quoted_on_one_line_and_shortened() {
 fn a_program_that_changes_while_it_runs_ends_as_an_error() {
     use kontur::request::Request;
     use kontur_interpreter::record::CycleRecord;
-    let f = Folder::new();
+    let f = Folder::new(&[]);
     let line = "G01 X1 F6000\nX0\n".repeat(20_000);
     for text in ["G01 X9 F600\nM30\n".to_owned(), format!("{line}M30\n")] {
         for change in [None, Some(String::new()), Some(text.replace("X1", "X2") + "\n")] {
             let f = f.path("a.nc");
             fs::write(&f, &text).unwrap();
             let request = Request {
-                program: f.clone(),
+                program: f.clone().into(),
                 max_time_s: 5.0,
                 max_blocks: 1_000_000,
                 ..Request::default()
@@ -228,7 +200,7 @@ fn a_checkout_of_windows_moves_the_same() {
         }
         converted
     };
-    let mut f = Folder::new();
+    let mut f = Folder::new(&[]);
     for entry in fs::read_dir(root.join("machines/xyz")).unwrap() {
         let path = entry.unwrap().path();
         let (name, bytes) = (path.file_name().unwrap().to_str().unwrap(), fs::read(&path).unwrap());
@@ -249,7 +221,7 @@ fn a_checkout_of_windows_moves_the_same() {
             let output = format!("@{kind}/{n}.csv");
             let said = f.call(&["run", &program, "-m", &machine, "-o", &output]);
             assert_eq!(said.exit, Exit::Finished, "{}", said.err);
-            fs::read_to_string(f.path(&output[1..])).unwrap().replace("crlf/", "lf/")
+            f.read(&output[1..]).replace("crlf/", "lf/")
         };
         let (lf, crlf) = (trace("lf"), trace("crlf"));
         let same = lf.lines().zip(crlf.lines()).position(|(a, b)| a != b);

@@ -2,7 +2,7 @@
 
 use kontur::Exit;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::command::command;
+use kontur_tests::command::Folder;
 use kontur_tests::{machine, run_with_inputs};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -15,17 +15,13 @@ struct Run {
 
 impl Run {
     fn new(program: &str, more: &[&str]) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-        std::fs::write(path("part.nc"), program).unwrap();
-        let times = format!("--times={}", path("times.csv"));
-        let words = ["run", &path("part.nc"), "--summary", "json", &times];
-        let done = command([&words[..], more].concat());
-        assert_eq!(done.exit, Exit::Finished, "{}", done.err);
-        let mut table = csv::Reader::from_path(path("times.csv")).unwrap();
+        let folder = Folder::new(&[("part.nc", program)]);
+        let times = folder.path("times.csv");
+        let summary = folder.summary(&[&[&*format!("--times={times}")], more].concat());
+        let mut table = csv::Reader::from_path(times).unwrap();
         let rows = table.deserialize().map(|row| row.unwrap());
         let lines = rows.map(|row: BTreeMap<String, String>| (row["line"].parse().unwrap(), row));
-        Self { summary: serde_json::from_str(&done.out).unwrap(), lines: lines.collect() }
+        Self { summary, lines: lines.collect() }
     }
 
     fn seconds(&self, line: u32, column: &str) -> f64 {
@@ -160,15 +156,15 @@ fn random_programs_add_up() {
 /// The readable form quotes the lines; those of subroutines from their own file.
 #[test]
 fn the_most_expensive_lines_are_quoted() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    std::fs::write(path("part.nc"), "L slow.nc\nG01 X0 F6000\nM30\n").unwrap();
-    std::fs::write(path("slow.nc"), "(slow)\nG01 X20 F60 (this one)\nM17\n").unwrap();
-    let done = command(["run", &path("part.nc"), "--times"]);
+    let folder = Folder::new(&[
+        ("part.nc", "L slow.nc\nG01 X0 F6000\nM30\n"),
+        ("slow.nc", "(slow)\nG01 X20 F60 (this one)\nM17\n"),
+    ]);
+    let done = folder.call(&["run", "@part.nc", "--times"]);
     assert_eq!(done.exit, Exit::Finished, "{}", done.err);
     let behind = done.out.split("lines that take the most time\n").nth(1).unwrap();
     let mut lines = behind.lines();
-    assert!(lines.next().unwrap().contains(&format!("{}:2 ", path("slow.nc"))), "{behind}");
+    assert!(lines.next().unwrap().contains(&format!("{}:2 ", folder.path("slow.nc"))), "{behind}");
     assert_eq!(lines.next().unwrap().trim(), "G01 X20 F60 (this one)");
 }
 

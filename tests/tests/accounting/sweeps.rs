@@ -5,10 +5,9 @@ use super::*;
 /// Rows of a sweep over a square, with the given columns.
 fn sweep(program: &str, vary: &[&str]) -> (Vec<Vec<String>>, String) {
     let folder = Folder::new(&[("part.nc", program)]);
-    let part = folder.path("part.nc");
-    let mut words = vec!["sweep", &part, "--columns", "duration_s,contour_err_mm"];
+    let mut words = vec!["sweep", "@part.nc", "--columns", "duration_s,contour_err_mm"];
     words.extend(vary.iter().flat_map(|v| ["--vary", v]));
-    let done = command(&words);
+    let done = folder.call(&words);
     assert_eq!(done.exit, Exit::Finished, "{}", done.err);
     let rows = done.out.lines().skip(1);
     (rows.map(|l| l.split(',').map(str::to_owned).collect()).collect(), done.err)
@@ -85,9 +84,8 @@ fn values_of_a_program_vary() {
 #[test]
 fn shards_together_are_the_sweep() {
     let folder = Folder::new(&[("part.nc", SQUARE)]);
-    let part = folder.path("part.nc");
-    let words = ["sweep", &part, "--vary", "*.vib_guard.freq=20..24", "--vary", "V.E.A=1,2"];
-    let with = |more: &[&str]| command([&words[..], more].concat());
+    let words = ["sweep", "@part.nc", "--vary", "*.vib_guard.freq=20..24", "--vary", "V.E.A=1,2"];
+    let with = |more: &[&str]| folder.call(&[&words[..], more].concat());
     let whole = with(&[]).out;
     // the last column is what a part knows from its own rows alone
     assert!(whole.lines().next().is_some_and(|header| header.ends_with(",without_effect")));
@@ -124,6 +122,5 @@ fn shards_together_are_the_sweep() {
         assert_eq!(done.exit, Exit::Usage);
         assert!(done.err.contains("11 parts of 10 combinations"), "{}", done.err);
     }
-    let picture = folder.path("a.svg");
-    assert_eq!(with(&["--shard", "1/2", "-o", &picture]).exit, Exit::Usage);
+    assert_eq!(with(&["--shard", "1/2", "-o", "@a.svg"]).exit, Exit::Usage);
 }
