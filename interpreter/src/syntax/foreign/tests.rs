@@ -1,5 +1,6 @@
 use super::recognise;
 use crate::diag::Location;
+use kontur_kit::pieces;
 use std::sync::Arc;
 
 fn said(block: &str) -> Option<String> {
@@ -53,27 +54,9 @@ fn words_of_other_controls_are_named_whole() {
 
 #[test]
 fn mistakes_in_this_dialect_are_not_taken_for_another_one() {
-    for block in [
-        "N10 X1 {",
-        "G1 X1.5 Y",
-        "#SLOPE [TYPE=",
-        "# SLOPE",
-        "O1000 X",
-        "X1.2.3",
-        "V.G.G1.5 = ",
-        "TOOL 1",
-        "DEFAULT 5",
-        "TRANSX 1",
-        "é#é",
-        "P3=RP2",
-        "P2=R1 ]",
-        "V.P.ROT 5",
-        "[ROT",
-        "M98 X",
-        "LBL X",
-        "WHEN X",
-        "M8. X",
-    ] {
+    let blocks = "N10 X1 { ¦ G1 X1.5 Y ¦ #SLOPE [TYPE= ¦ # SLOPE ¦ O1000 X ¦ X1.2.3 ¦ V.G.G1.5 =  ¦ TOOL 1 ¦ DEFAULT 5 ¦ TRANSX 1 ¦ é#é ¦ P3=RP2
+P2=R1 ] ¦ V.P.ROT 5 ¦ [ROT ¦ M98 X ¦ LBL X ¦ WHEN X ¦ M8. X";
+    for block in pieces(blocks) {
         assert_eq!(said(block), None, "{block}");
     }
 }

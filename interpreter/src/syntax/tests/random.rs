@@ -2,6 +2,7 @@ use super::{accepted, by_grammar, parse, parse_as, shape};
 use crate::diag::Condition;
 use crate::syntax::ast::{Body, Span};
 use crate::syntax::{Mode, Plain};
+use kontur_kit::pieces;
 use proptest::prelude::*;
 
 /// Lines that are plain or almost plain.
@@ -181,26 +182,10 @@ fn a_damaged_cycle_call_stays_a_call() {
 
 #[test]
 fn usual_lines_of_cam_programs_are_plain() {
-    for line in [
-        "N10 G1 X1.5 Y-2.25 Z0.000",
-        "G01X100.Y.5F2000",
-        "X1",
-        "N100",
-        "G2 X10 Y0 I5 J0 M8 S1200 T5",
-        "N5 X1 ; remark (",
-        " ; remark",
-        "",
-        "N10: X1 (remark (in remark)) Y2",
-        "(remark)",
-        "(before) N20 (between) X1(behind)",
-        "N30 ( open ; X1",
-        "N30 X1 Y2 (open (in it) ; Z1",
-        "X[P1 + 2*[3 - P2]] Y[-5.5/2] Z[7]",
-        "G01 X=1.5 Y = -2 F=1000 H5",
-        "X 1.5 Y -[P1+2] S=1000 M3",
-        "/N10 X1",
-        "/2 X(depth) =5",
-    ] {
+    let lines = "N10 G1 X1.5 Y-2.25 Z0.000 ¦ G01X100.Y.5F2000 ¦ X1 ¦ N100 ¦ G2 X10 Y0 I5 J0 M8 S1200 T5 ¦ N5 X1 ; remark ( ¦  ; remark
+N10: X1 (remark (in remark)) Y2 ¦ (remark) ¦ (before) N20 (between) X1(behind) ¦ N30 ( open ; X1 ¦ N30 X1 Y2 (open (in it) ; Z1
+X[P1 + 2*[3 - P2]] Y[-5.5/2] Z[7] ¦ G01 X=1.5 Y = -2 F=1000 H5 ¦ X 1.5 Y -[P1+2] S=1000 M3 ¦ /N10 X1 ¦ /2 X(depth) =5 ¦ ";
+    for line in pieces(lines) {
         let mut block = Plain::default();
         assert!(block.recognize(line.as_bytes()).is_some(), "{line}");
         assert_eq!(block.tree(), by_grammar(line).0, "{line}");

@@ -5,7 +5,7 @@ use super::{Entry, EntryId, Index, Keyword, build};
 use crate::exec::options::SkipLevels;
 use crate::source::{BlockReader, MemorySources, Position, Sources};
 use crate::syntax::ast::LabelKind;
-use kontur_kit::Random;
+use kontur_kit::{Random, pieces};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -78,29 +78,9 @@ fn lines_that_say_nothing_are_words() {
     for line in ["X1 Y2", "N10X1", "n5 \tG01 F100 ; feed", "L sub.nc", "x1.5 (a)"] {
         assert!(says_nothing(line), "{line}");
     }
-    for line in [
-        "",
-        " X1",
-        "N",
-        "N10",
-        "N10:",
-        "N10 :X1",
-        "N10[A] X1",
-        "[A]",
-        "N[1]",
-        "/X1",
-        "%L A",
-        "$IF 1",
-        "#IF 1",
-        "N1 #IF 1",
-        "(c) $IF 1",
-        ";",
-        "M30",
-        "X1 m02",
-        "X1 \\",
-        "\"A\"",
-        "N 1:",
-    ] {
+    let others = " X1 ¦ N ¦ N10 ¦ N10: ¦ N10 :X1 ¦ N10[A] X1 ¦ [A] ¦ N[1] ¦ /X1 ¦ %L A ¦ $IF 1 ¦ #IF 1 ¦ N1 #IF 1 ¦ (c) $IF 1 ¦ ; ¦ M30 ¦ X1 m02
+X1 \\ ¦ \"A\" ¦ N 1: ¦ ";
+    for line in pieces(others) {
         assert!(!says_nothing(line), "{line}");
     }
 }
@@ -289,29 +269,10 @@ fn every_block_of_a_long_program_may_have_a_label() {
 /// Statements with faults among them mean the same whatever follows them and wherever they are.
 #[test]
 fn mistakes_mean_the_same_in_long_programs() {
-    let lines = [
-        "$IF 1",
-        "$ENDIF",
-        "$ELSE",
-        "$ELSEIF 1",
-        "$FOR P1=1,2,1",
-        "$ENDFOR",
-        "$WHILE 1",
-        "$ENDWHILE",
-        "#IF 1",
-        "#ELSE",
-        "#ENDIF",
-        "#COMMENT BEGIN",
-        "#COMMENT END",
-        "#RT CYCLE",
-        "#RT CYCLE END",
-        "$SWITCH 1",
-        "$CASE 1",
-        "$ENDSWITCH",
-        "%A",
-        "%L B",
-        "$DO",
-    ];
+    let lines = pieces(
+        "$IF 1 ¦ $ENDIF ¦ $ELSE ¦ $ELSEIF 1 ¦ $FOR P1=1,2,1 ¦ $ENDFOR ¦ $WHILE 1 ¦ $ENDWHILE ¦ #IF 1 ¦ #ELSE ¦ #ENDIF ¦ #COMMENT BEGIN
+#COMMENT END ¦ #RT CYCLE ¦ #RT CYCLE END ¦ $SWITCH 1 ¦ $CASE 1 ¦ $ENDSWITCH ¦ %A ¦ %L B ¦ $DO",
+    );
     for seed in 0..300 {
         let mut random = Random::new(seed);
         // few enough to be kept unpacked
