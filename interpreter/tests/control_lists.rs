@@ -3,13 +3,12 @@
 mod feedforward;
 mod ipc;
 
-use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput, Fault};
+use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput};
 use kontur_filters::shaping::Shaping;
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
 use kontur_interpreter::diag::Diagnostic;
-use kontur_interpreter::machine::table::ListKind;
-use kontur_interpreter::machine::{Machine, Override, lists};
+use kontur_interpreter::machine::{Machine, Override};
 use kontur_kit::near;
 
 const MS: CycleTime = CycleTime::DEFAULT;
@@ -59,70 +58,6 @@ fn stage(more: &str) -> String {
         "{IPC}.enable=1 {IPC}.v_add_max_fact=100 {IPC}.stage[0].mode=1 {IPC}.stage[0].filter[0].order=1 \
          {IPC}.stage[0].filter[0].fg_f0=53 {IPC}.stage[0].filter[0].q_factor=10 {more}"
     )
-}
-
-/// P-AXIS-00532 decides; 0 switches off, and with a negative value the older P-AXIS-00151 decides.
-/// Conformance: P003, P005, P006, P007, P019, P020, P021.
-#[test]
-fn settling_time_of_the_lists() {
-    let slow = "X.getriebe[0].kv=1000 X.getriebe[0].window=500 X.vorsteuer.vorsteuerung=NONE \
-                Y.vorsteuer.vorsteuerung=NONE Z.vorsteuer.vorsteuerung=NONE S.vorsteuer.vorsteuerung=NONE";
-    // cycle of 70082 after the stop from 100 mm/s
-    let late = |settings: &str| {
-        let mut axis = axis(&format!("{slow} {settings}"));
-        let at = |k: u32| 0.1 * f64::from(k.min(2000));
-        (0..4000).find_map(|k| {
-            if k == 2000 {
-                axis.expect_stop(at(2000));
-            }
-            axis.step(at(k), 0.0, true);
-            let late = axis.faults().iter().any(|f| matches!(f, Fault::SettlingTimeout { .. }));
-            late.then(|| k - 2000)
-        })
-    };
-    let (new, old) = ("X.getriebe[0].position_settling_time", "X.getriebe[0].pos_einschw_zeit");
-    assert_eq!(late(&format!("{new}=200000")), Some(200));
-    assert_eq!(late(&format!("{new}=400000")), Some(400));
-    assert_eq!(late(&format!("{new}=600000")), None);
-    assert_eq!(late(&format!("{new}=0")), None);
-    assert_eq!(late(&format!("{new}=-1 {old}=200000")), Some(200));
-    assert_eq!(late(&format!("{new}=400000 {old}=200000")), Some(400));
-    assert_eq!(late(&format!("{new}=600000 Y.getriebe[0].position_settling_time=10000")), None);
-}
-
-/// P-AXIS-00244 switches the gain that depends on speed: the lag at a constant speed is that speed by the gain in force. SERCOS
-/// and CANopen drives have it only with the loop in the control.
-#[test]
-fn dynamic_kv_needs_its_switch() {
-    let kv = |values: [u32; 4]| {
-        let keys = ["kv1", "v1", "kv2", "v2"];
-        let of = |(key, value)| format!("X.getriebe[0].dyn_kv.{key}={value}");
-        keys.into_iter().zip(values).map(of).collect::<Vec<_>>().join(" ")
-    };
-    let (on, off) =
-        ("X.getriebe[0].dyn_kv.dyn_kv_active=1", "X.getriebe[0].dyn_kv.dyn_kv_active=0");
-    let falling = kv([4000, 10_000, 3000, 200_000]);
-    let rising = kv([4000, 50_000, 10_000, 250_000]);
-    let flat = kv([2000, 10_000, 2000, 200_000]);
-    // the drive that follows at once leaves only the control law of the controller
-    let bus = |drive: u32| format!("{flat} {on} X.kenngr.antr_typ={drive}");
-    for (settings, gain_1_s, said) in [
-        (String::new(), 50.0, &[][..]),
-        (on.to_owned(), 10.0, &[]),
-        (format!("{falling} {off}"), 50.0, &[]),
-        (falling.clone(), 50.0, &["K-0075"]),
-        (format!("{falling} {on}"), 40.0 - 10.0 * 90.0 / 190.0, &[]),
-        (format!("{rising} {on}"), 40.0 + 60.0 * 50.0 / 200.0, &[]),
-        (format!("{flat} {on}"), 20.0, &[]),
-        (bus(3), 20.0, &["K-0079"]),
-        (bus(2), 50.0, &["K-0079", "K-0075"]),
-        (bus(8), 50.0, &["K-0079", "K-0075"]),
-        (format!("{} X.antr.operation_mode=CNC_POSITION_CONTROL", bus(2)), 20.0, &[]),
-    ] {
-        assert_eq!(ids(&settings), said, "{settings}");
-        let out = last(&settings, 0.0);
-        near(out.reference_mm - out.act_mm, 100.0 / gain_1_s, 0.02 / gain_1_s);
-    }
 }
 
 /// P-AXIS-00395: an axis that is displaced at rest gets no command inside the dead band; at most the window, and not with a loop closed

@@ -130,6 +130,16 @@ fn listings_of_the_additional_interface() {
     assert_eq!(found[0].id.to_string(), "1001119");
 }
 
+/// Two filters in their order.
+#[test]
+fn standard_filters_in_their_order() {
+    let mut set = with("X.filter[0]", "enable=1 type=BANDSTOP order=2 fg_f0=21.5 guete=3");
+    set.extend(with("X.filter[2]", "enable=1 type=TIME_DELAY order=1 time_constant=2500"));
+    let (machine, _) = machine(&set.iter().map(String::as_str).collect::<Vec<_>>());
+    let filters = &machine.chains().0[0].filters;
+    assert!(filters.len() == 2 && (filters[1].delay_cycles() - 2.5).abs() < 1e-9);
+}
+
 /// Signal share: 50 % leaves half of what the filter removes, 0 % all of it. Conformance: A098.
 #[test]
 fn share_of_a_list() {

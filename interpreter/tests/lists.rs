@@ -1,11 +1,29 @@
 //! The tables of `lists`: settings of a machine, and what the reader of the lists makes of them. Their README describes the form.
 
-use super::chains::read;
 use kontur_filters::time::CycleTime;
 use kontur_interpreter::diag::Diagnostic;
-use kontur_interpreter::machine::Machine;
+use kontur_interpreter::machine::{Axis, ListFiles, Machine, Override};
 use kontur_kit::rows::{Row, fits, is, rows, settings};
-use std::fmt::Write as _;
+use std::fmt::{Debug, Write as _};
+
+/// The folder of the sample machines.
+struct Samples;
+
+impl ListFiles for Samples {
+    fn read(&self, path: &str) -> Result<Option<Vec<u8>>, String> {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../programs/machines/");
+        Ok(std::fs::read(format!("{folder}{path}")).ok())
+    }
+}
+
+/// Reads a sample machine with settings: the machine with its messages, or those for which it is refused.
+pub(crate) fn read(
+    name: &str,
+    set: &[&str],
+) -> Result<(Machine, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let set: Vec<Override> = set.iter().map(|text| Override::parse(text).unwrap()).collect();
+    Machine::load(&Samples, &format!("{name}/hochlauf.lis"), &set)
+}
 
 /// What settings lead to: the machine unless it is refused, and the messages.
 struct Outcome(Option<Machine>, Vec<Diagnostic>);
@@ -41,15 +59,70 @@ fn whole(machine: &Machine) -> String {
     format!("{:?} {kernels:?}", machine.chains().0)
 }
 
+/// The values of a structure by their paths, from its text for debugging: `position.kv_per_s` and `50.0`. Unnamed parts have a number,
+/// that of `Some` has none; a structure itself has its type as value.
+fn values(thing: &dyn Debug) -> Vec<(String, String)> {
+    let (mut found, mut around): (Vec<_>, Vec<(String, Option<usize>)>) = (Vec::new(), Vec::new());
+    for line in format!("{thing:#?}").lines() {
+        let line = line.trim().trim_end_matches(',');
+        if line.starts_with(['}', ']', ')']) {
+            around.pop();
+            continue;
+        }
+        let (name, value) = match (line.split_once(": "), around.last_mut()) {
+            (Some((name, value)), _) => (name.to_owned(), value),
+            (None, Some((_, Some(next)))) => (std::mem::replace(next, *next + 1).to_string(), line),
+            (None, _) => (String::new(), line),
+        };
+        let path = around.iter().map(|(name, _)| name).chain([&name]);
+        let path: Vec<&str> = path.map(String::as_str).filter(|name| !name.is_empty()).collect();
+        let plain = value.trim_end_matches(['{', '[', '(']);
+        if plain != "Some" {
+            found.push((path.join("."), plain.trim_matches(['"', ' ']).replace(' ', "")));
+        }
+        if plain.len() < value.len() {
+            around.push((name, (plain != "Some").then_some(0)));
+        }
+    }
+    found
+}
+
+/// The setup of an axis, or that of the channel.
+fn setup(machine: &Machine, name: &str) -> Vec<(String, String)> {
+    let Some(axis) = machine.axis(name) else { return values(&machine.channel) };
+    let place = machine.all_axes().position(|other| other.name() == name).unwrap();
+    let chain = &machine.chains().0[place];
+    let parts: [&dyn Debug; 4] =
+        [&chain.control, chain, &axis.kernel_preset(machine.cycle), &axis.dynamics()];
+    parts.into_iter().flat_map(values).collect()
+}
+
+/// What `X,Y:position.kv_per_s=50` states and the setup of these axes does not have; `*` are all axes.
+fn other_setup(word: &str, machine: &Machine) -> Option<String> {
+    let (names, rest) = word.split_once(':')?;
+    let (path, wanted) = rest.split_once('=')?;
+    let all = machine.all_axes().map(Axis::name);
+    let names: Vec<&str> = if names == "*" { all.collect() } else { names.split(',').collect() };
+    let near = |(a, b): (f64, f64)| (a - b).abs() <= 1e-9 * b.abs().max(1e-9);
+    let number = |text: &str| text.parse::<f64>().ok();
+    names.into_iter().find_map(|name| {
+        let setup = setup(machine, name);
+        let found = setup.iter().find(|(p, _)| p == path).map(|(_, value)| value);
+        let same =
+            found.is_some_and(|f| f == wanted || number(f).zip(number(wanted)).is_some_and(near));
+        (!same).then(|| format!("{name}:{path} is {found:?}"))
+    })
+}
+
 /// The facts that a word of a row introduces.
 fn facts(word: &str, machine: &Machine) -> Vec<String> {
     let chains = machine.chains().0;
     match word {
         "filters" => chains.iter().map(|chain| chain.filters.len().to_string()).collect(),
+        "modulo" => machine.all_axes().map(|axis| axis.is_modulo().to_string()).collect(),
         "kernel" => {
-            let kernel = |axis: &kontur_interpreter::machine::Axis| {
-                axis.kernel_preset(machine.cycle).hsc?.design(CycleTime::DEFAULT).0
-            };
+            let kernel =
+                |axis: &Axis| axis.kernel_preset(machine.cycle).hsc?.design(CycleTime::DEFAULT).0;
             let length = |axis| kernel(axis).map_or("-".into(), |k| k.length().to_string());
             machine.all_axes().map(length).collect()
         }
@@ -83,7 +156,8 @@ fn faults(row: &Row) -> Vec<String> {
     for word in expected.split_whitespace() {
         match (word, &machine) {
             ("ok", _) | ("refused", None) => {}
-            ("filters" | "kernel" | "additional", _) => lists.push((word, Vec::new())),
+            ("filters" | "kernel" | "additional" | "modulo", _) => lists.push((word, Vec::new())),
+            (_, Some(machine)) if word.contains(':') => wrong.extend(other_setup(word, machine)),
             (_, Some(machine)) if word.contains('=') => {
                 let (key, value) = word.split_once('=').unwrap_or_default();
                 let (axis, key) = key.split_once('.').unwrap_or_default();
@@ -146,6 +220,8 @@ fn wrong_rows_are_found() {
         "{order} -> 50911@X@P-AXIS-00140@warning@set filters 1 0 0 0 like {fewer}"
     )));
     assert!(right(&format!("{order} -> 50911 \"order\"")));
+    let of_axes = "*:position.kv_per_s=50 X,Y:encoder=Motor X:exact_stop.settling_s=0.2";
+    assert!(right(&format!("{order} -> 50911 {of_axes} channel:dynamics.slope=Trapez")));
     for wrong in [
         "ok",
         "50912",
@@ -158,6 +234,11 @@ fn wrong_rows_are_found() {
         "50911 filters 0 0 0 0",
         "50911 kernel 7 - - -",
         "50911 additional plain",
+        "50911 modulo true false false true",
+        "50911 *:position.kv_per_s=49",
+        "50911 X:encoder=Direct",
+        "50911 X:never.there=1",
+        "50911 channel:dynamics.slope=Step",
         "50911 like X.filter[0]: enable=1, order=5",
         "50911 unlike X.filter[0]: enable=1, order=6",
         "50911 \"never said\"",

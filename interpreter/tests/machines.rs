@@ -1,10 +1,15 @@
 //! The sample machines of `programs/machines`.
 
-use crate::chains::sample;
+use crate::lists::read;
+use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::table::{self, Default, ListKind};
 use kontur_interpreter::machine::value::Value;
 use kontur_interpreter::machine::{AxisKind, Machine};
 use std::path::PathBuf;
+
+fn sample(name: &str) -> (Machine, Vec<Diagnostic>) {
+    read(name, &[]).unwrap()
+}
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../programs/machines")

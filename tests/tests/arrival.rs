@@ -63,22 +63,12 @@ fn the_end_waits_for_the_axes() {
     assert!(ramp.windows(2).all(|w| w[1].axes[0].settling_s > w[0].axes[0].settling_s - 1e-12));
 }
 
-/// G60 waits for both sides of a gantry bridge; an error of one side brakes both along the path.
+/// An error of one side of a gantry bridge brakes both along the path.
 #[test]
 fn both_sides_of_a_gantry() {
-    let on = |settings: &str, text: &str| run_on(sample_machine("gantry", settings), text);
-    let waits = on("X2.getriebe[0]: kv=2000, position_settling_time=0", G60);
-    assert_eq!(waits.diagnostics, []);
-    let begins = waits.records.iter().position(|r| r.axes[1].ipo > 0.0).unwrap();
-    let slave = waits.records[begins].axes.last().unwrap();
-    assert!(slave.lag.abs() <= 0.01, "{}", slave.lag);
-    // one side does not arrive in time: the other one is held with it and gives no message
-    let late = on("X2.getriebe[0]: kv=1000, position_settling_time=10000", G60);
-    assert_eq!(only(&late).0, Id::Vendor(70082));
-    assert_eq!(only(&late).1, "X2");
     // a following error of the slave in full motion
     let lag = "X2.getriebe[0]: slep_ueberw_typ=4, slep_max=10000, slep_min=10000, kv=2000";
-    let run = on(lag, "%P\nG90\nG01 X400 F30000\nM30\n");
+    let run = run_on(sample_machine("gantry", lag), "%P\nG90\nG01 X400 F30000\nM30\n");
     assert_eq!(only(&run).0, Id::Vendor(70020));
     let most = |axis: usize| run.records.iter().map(|r| r.axes[axis].acc.abs()).fold(0.0, f64::max);
     let slave = run.records[0].axes.len() - 1;

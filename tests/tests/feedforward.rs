@@ -1,7 +1,7 @@
 //! Feedforward of axes and spindles in runs of programs. The names of the rows are those of the ledger.
 
 use kontur_interpreter::diag::Condition;
-use kontur_tests::{Run, programs, run, run_on, sample_machine};
+use kontur_tests::{Run, run};
 
 fn program(lines: &[&str]) -> String {
     format!("%P\n{}\nM30\n", lines.join("\n"))
@@ -24,29 +24,6 @@ fn feedforward_keeps_the_arc() {
     let (without, with) = (error("G137"), error("G135"));
     assert!(without > 0.5, "{without}");
     assert!(with < 0.1 * without, "{with} of {without}");
-}
-
-/// Lag of the spindles in the sample program: what each form of the command leaves of v / Kv = 6000 / 50 deg.
-/// Conformance: F035, F036, F037, F038, F039.
-#[test]
-fn the_sample_program_of_the_spindles() {
-    let text = std::fs::read_to_string(programs().join("spindle_feedforward.nc")).unwrap();
-    let run = run_on(sample_machine("two_spindles", &[]), &text);
-    assert!(!run.totals.aborted && run.diagnostics.is_empty(), "{:?}", run.diagnostics);
-    // ten cycles before each change
-    for (k, s, s2) in [
-        (990, 120.0, 120.0),
-        (1490, 0.0, 120.0),
-        (1990, 0.0, 12.0),
-        (2490, 24.0, 12.0),
-        (2990, 120.0, 120.0),
-    ] {
-        let lag = |axis: usize| run.records[k].axes[axis].lag;
-        assert!((lag(3) - s).abs() < 1e-6, "S in cycle {k}: {}", lag(3));
-        assert!((lag(4) - s2).abs() < 1e-6, "S2 in cycle {k}: {}", lag(4));
-    }
-    let last = run.records.last().unwrap();
-    assert!(last.axes[3].vel.abs() < 1e-9 && last.axes[4].vel.abs() < 1e-9, "M5");
 }
 
 /// `#MACHINE DATA` while the axes still follow: where the value equals the one in force nothing changes, and another gain appears as

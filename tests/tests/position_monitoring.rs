@@ -104,20 +104,3 @@ fn following_error_of_type_4() {
     // suppressed, or a limit that is wide enough: no message
     assert_eq!(lag_monitor(4, "slep_max=25000, slep_min=25000").1, None);
 }
-
-/// At the end of the ramp a feedforward of 120 % commands more than P-AXIS-00407 permits above the maximum of the axis: the limit is
-/// output, the axis brakes under control (class 7).
-#[test]
-fn speed_command_above_its_limit() {
-    let run = run(
-        "%P\nG135\nG90 G00 X450 Y100\nM30\n",
-        "X.vorsteuer: vs_v_faktor=12, vs_v_nenner=10; X.lr_param.dyn_monitoring_v_err=1",
-    );
-    assert_eq!(run.ids(), [70382], "{:?}", run.diagnostics);
-    assert!(run.totals.aborted);
-    let limit = 1000.0 * 1.001;
-    assert!(run.axis(0, |a| a.cmd).iter().all(|v| v.abs() <= limit + 1e-9));
-    // under control: braking along the path, without a step
-    assert!(run.axis(0, |a| a.acc).iter().all(|a| a.abs() < 6000.0 * 1.001));
-    assert!(run.records.last().unwrap().axes[0].ipo < 450.0);
-}

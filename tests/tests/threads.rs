@@ -88,46 +88,6 @@ const KEEPS_PITCH: &str = "channel.thread_cutting.ignore_override=1";
 /// P-CHAN-00837.
 const CHAIN: &str = "channel.thread_cutting.thread_chain=1";
 
-/// The pitch that is cut: the distance in Z per revolution in the steady part of line 3.
-fn pitch(run: &Run) -> f64 {
-    let all = together(run, 3..=3);
-    let steady: Vec<_> = all.iter().filter(|(z, _)| (-30.0..=-20.0).contains(z)).collect();
-    let (first, last) = (steady[0], steady[steady.len() - 1]);
-    (first.0 - last.0) / (last.1 - first.1) * 360.0
-}
-
-/// The override acts on G33 (P-CHAN-00836 = 0, the default) and the pitch shrinks with it, which is reported; P-CHAN-00836, `#TURN`, G166
-/// and a chain keep it from acting. The same holds for the override of the program.
-#[test]
-fn the_override_in_a_thread() {
-    let half = [(0.0, "override_percent", 50.0)];
-    let thread = "G33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
-    for (first, settings, broken) in [
-        ("M3 S500", &[][..], true),
-        ("M3 S500", &[KEEPS_PITCH], false),
-        ("M3 S500", &[CHAIN], false),
-    ] {
-        let run = run_with_inputs(machine(settings), &format!("%P\n{first}\n{thread}"), &half);
-        assert_eq!(run.said(), if broken { vec!["K-0132"] } else { vec![] });
-        let want = if broken { 0.75 } else { 1.5 };
-        assert!((pitch(&run) - want).abs() < 1e-6, "{}", pitch(&run));
-    }
-    for (second, want, broken) in [
-        ("#TURN [THREAD_CUT_IGNORE_OV=1]", 1.5, false),
-        ("#TURN [THREAD_CHAIN=1]", 1.5, false),
-        ("#OVERRIDE [FEED_FACT=80]", 0.6, true),
-    ] {
-        let text = format!("N1 M3 S500\n{second}\n{thread}");
-        let run = run_with_inputs(machine(&[]), &text, &half);
-        assert_eq!(run.diagnostics.is_empty(), !broken, "{text} {:?}", run.diagnostics);
-        assert!((pitch(&run) - want).abs() < 1e-6, "{text}: {}", pitch(&run));
-    }
-    let text = "%P\nM3 S500\nG166 G33 Z-40 K1.5\nG01 Z-41 F100\nM5\nM30\n";
-    let run = run_with_inputs(machine(&[]), text, &half);
-    assert_eq!(run.diagnostics, []);
-    assert!((pitch(&run) - 1.5).abs() < 1e-6);
-}
-
 /// A feedhold before the thread delays it: the thread begins at the mark all the same.
 #[test]
 fn a_feedhold_before_a_thread_delays_it() {
@@ -213,22 +173,6 @@ fn passes_lie_in_each_other_behind_any_corner() {
     }
 }
 
-/// Under `AX_DEV` a thread waits until the filters of the path have settled, not for axes that move on their own.
-#[test]
-fn a_thread_does_not_wait_for_independent_axes() {
-    for (moves, ends) in [
-        ("X[OSC ON 1ST_POS=0 2ND_POS=10 FEED=3000]", "X[OSC OFF]"),
-        ("X[INDP_ASYN G90 G01 FEED=300 POS=40]", "G04 0.1"),
-    ] {
-        let text = format!(
-            "%P\nM3 S600\n#VIB GUARD ON [MODE=4 FREQ=15 AX_DEV=0.01]\nF3000\n{moves}\nG33 Z-20 K1.5\n{ends}\n#WAIT INDP ALL\nM30\n"
-        );
-        let run = run(&text, &[]);
-        let begins = run.of_line(6).find(|r| r.axes[Z].ipo < -1.0).unwrap();
-        assert!(run.cycle_s * (begins.k as f64) < 1.0, "{text}");
-    }
-}
-
 /// An override that does not act on G33 (P-CHAN-00836) leaves it as it is, whenever it changes.
 #[test]
 fn an_override_that_does_not_act_leaves_the_thread_alone() {
@@ -279,14 +223,6 @@ fn the_tolerance_holds_behind_a_thread() {
             assert!(beside <= most && missed <= most + 1e-4, "{text}{beside} {missed}");
         }
     }
-}
-
-/// A tapered thread of 30 deg: the pitch is that of Z, whatever X does (tapered threads, K below 45 deg).
-#[test]
-fn a_tapered_thread() {
-    let run = run("%P\nM3 S500\nG33 Z-40 X23.0940107676 K1.5\nG01 X24 F100\nM5\nM30\n", &[]);
-    assert_eq!(run.diagnostics, []);
-    thread(&run, 3, 1.5, 1.0);
 }
 
 const FACE: &str = "X.kenngr.achs_mode=65";

@@ -6,13 +6,16 @@
 //! at 0.5 X45 Y0        where the axes are interpolated to at this time in s
 //! line 3 X45           the same in the last cycle of this line of the row
 //! middle 3 X45         the same in the middle of this line
+//! first 3 X45          the same in its first cycle
+//! rest 3 X45           the same in the last cycle of this line in which the path rests before its end
 //! end X100             the same in the last cycle
 //! X8..8.2              between these positions
 //! S2=45                an axis or spindle whose name may end with a digit
 //! most 3 X45           the same in that cycle of this line in which it is largest, whatever its sign; 0 is the whole run
 //! add X0.5             another quantity of the axes: set, act, load, lag, add, reference, err, dev, vel, acc, jerk, ff, cmd, vadd; rpm, the
 //!                      speed of a spindle in rev/min; late, the cycles by which `set` follows `ipo` at constant speed; percent, the
-//!                      lag in per cent of that without feedforward, speed / Kv with Kv 50/s; `ipo` leads back
+//!                      lag in per cent of that without feedforward, speed / Kv with Kv 50/s; pitch, the way during a revolution of the spindle of the
+//!                      built-in machine; `ipo` leads back
 //! arrives X100 1.6     the first time at which an axis has come to a position
 //! steps X0.1           what an axis goes at most in a cycle
 //! held 0.4             how long the path is held
@@ -70,6 +73,10 @@ fn quantity(run: &Run, name: &str, k: usize, axis: usize) -> f64 {
             let way = if way.abs() > 180.0 { way - 360.0 * way.signum() } else { way };
             100.0 * of(k).lag * 50.0 * run.cycle_s / way
         }
+        "pitch" => {
+            let spindle = run.records[k].axes[3].set - run.records[k - 1].axes[3].set;
+            (of(k).set - of(k - 1).set) / spindle * 360.0
+        }
         _ => (of(k).set - of(k - 1).set) / run.cycle_s / 6.0,
     }
 }
@@ -77,7 +84,7 @@ fn quantity(run: &Run, name: &str, k: usize, axis: usize) -> f64 {
 /// How far a quantity may be from its number.
 fn tolerance(quantity: &str) -> f64 {
     match quantity {
-        "rpm" | "late" => 1e-6,
+        "rpm" | "late" | "pitch" => 1e-6,
         "percent" => 0.01,
         _ => NEAR,
     }
@@ -114,25 +121,32 @@ fn faults(row: &Row) -> Vec<String> {
         match word {
             "ok" => {}
             "at" => at = vec![(number() / run.cycle_s).round() as usize],
-            "line" | "middle" | "most" => {
+            "line" | "first" | "middle" | "rest" | "most" => {
                 // %P is before the first line of a row
                 let line = number() as u32 + 1;
                 at = (0..run.records.len())
                     .filter(|k| line == 1 || run.records[*k].line == line)
                     .collect();
+                if word == "rest" {
+                    let ends = at.last().map(|k| run.records[*k].path.s_mm);
+                    at.retain(|k| {
+                        let path = &run.records[*k].path;
+                        path.v_mm_s <= 0.0 && Some(path.s_mm) != ends
+                    });
+                }
                 let last = at.len().saturating_sub(1);
                 match word {
                     _ if at.is_empty() => wrong.push(format!("line {} has no cycle", line - 1)),
-                    "line" => at = vec![at[last]],
+                    "line" | "rest" => at = vec![at[last]],
+                    "first" => at = vec![at[0]],
                     "middle" => at = vec![at[last / 2]],
                     _ => {}
                 }
             }
             "end" => at = vec![run.records.len().saturating_sub(1)],
             "ipo" | "set" | "act" | "load" | "lag" | "add" | "reference" | "err" | "dev"
-            | "vel" | "acc" | "jerk" | "ff" | "cmd" | "vadd" | "late" | "percent" | "rpm" => {
-                what = word
-            }
+            | "vel" | "acc" | "jerk" | "ff" | "cmd" | "vadd" | "late" | "percent" | "pitch"
+            | "rpm" => what = word,
             "held" => found.push((word, run.rested(Rest::Held) as f64 * run.cycle_s, number())),
             "within" => {
                 let limit_s = number();
@@ -234,6 +248,9 @@ fn wrong_rows_are_found() {
         "most 0 X9",
         "vel most 1 X9",
         "percent middle 2 X10",
+        "pitch middle 2 X1",
+        "first 2 X1",
+        "rest 2 X10",
         "K-0009@3",
         "\"text\"",
         "arrives X10 0.201",

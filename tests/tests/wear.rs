@@ -19,32 +19,12 @@ fn added(run: &Run, line: u32) -> [f64; 3] {
     [0, 1, 2].map(|axis| record.axes[axis].add)
 }
 
-#[track_caller]
-fn near(a: [f64; 3], b: [f64; 3]) {
-    assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} instead of {b:?}");
-}
-
 /// Around a square, counter-clockwise with the wheel outside, or clockwise with G41.
 fn square(otc: &str, side: &str) -> String {
     let y = if side == "G42" { "X102\nY100\nX2\nY0" } else { "Y100\nX102\nY0\nX2" };
     format!(
         "G26 D1 F6000 X-20\n{otc}\nG138 {side} G01 X2 Y0\n{y}\nG40 X-20 Y-5\n#OTC OFF\nG04 0.2\nM30\n"
     )
-}
-
-#[test]
-fn the_ways_to_the_contour_and_back_are_without_wear() {
-    let wear = [(0.0, "wear_mm", 0.5)];
-    let run = run_with_inputs(grinding(), &square("#OTC ON [RADIUS DISC]", "G42"), &wear);
-    let approach = run.of_line(3);
-    assert!(approach.clone().count() > 10);
-    for r in approach {
-        assert!(r.axes[..3].iter().all(|a| a.add == 0.0), "at {}", r.k);
-    }
-    near(added(&run, 8), [0.0; 3]);
-    // the set positions stay on the programmed path, and the deviation is measured there
-    assert!(run.records.iter().all(|r| r.axes[0].set.to_bits() == r.axes[0].ipo.to_bits()));
-    assert!(run.records.iter().all(|r| r.contour_err_mm == 0.0));
 }
 
 #[test]

@@ -12,7 +12,6 @@ mod modes;
 mod radius_change;
 mod random;
 mod said;
-mod shaping;
 mod straight;
 mod tables;
 mod tangential;

@@ -3,8 +3,7 @@ mod reactions;
 use super::table::own;
 use super::*;
 use crate::diag::{Condition, Diagnostic};
-use kontur_filters::control::plant::PlantModel;
-use kontur_motion::block::{SlopeKind, TransitionJerkMode};
+use kontur_motion::block::SlopeKind;
 use std::collections::BTreeMap;
 
 /// Files in memory.
@@ -113,76 +112,10 @@ fn lists_overwrite_only_what_they_name() {
     assert_eq!(x.raw("getriebe[0].window"), Some(200.0));
     assert_eq!(x.raw("getriebe[0].dynamik.vb_max"), Some(200000.0));
     assert_eq!(machine.axis("S").unwrap().raw("getriebe[0].kv"), Some(4000.0));
-}
-
-#[test]
-fn vendor_defaults_in_mm_and_s() {
-    let (machine, _) = Memory::machine().load(&[]).unwrap();
-    let d = machine.axis("X").unwrap().dynamics();
-    // 200 mm/s, 1000 mm/s2, ramps 50 ms, rapid ramp 10 ms
-    assert!(
-        close(d.v_max_mm_s, 200.0)
-            && close(d.v_rapid_mm_s, 166.666)
-            && close(d.a_max_mm_s2, 1000.0)
-    );
-    assert!(close(d.a_emergency_mm_s2, 1000.0) && close(d.tr_geom_s, 0.01));
-    assert!(close(d.feed.acc_mm_s2, 1000.0) && close(d.feed.dec_mm_s2, 1000.0));
-    assert!(d.feed.ramps_s.iter().all(|t| close(*t, 0.05)));
-    assert!(close(d.rapid.acc_mm_s2, 1000.0) && close(d.rapid.ramp_s, 0.01));
-    assert!(close(d.step_feed.dec_mm_s2[0], 1000.0) && close(d.step_feed.change_mm_s, 100.0));
-    assert!(close(d.a_trans_ratio, 0.0) && close(d.r_trans_ratio, 1.0));
-    assert!(close(machine.axis("X").unwrap().a_w_max_mm_s2(), 1000.0));
-    let filter = |k| machine.axis("X").unwrap().get(table::axis_guard::IPC_TYPE.at(1).and(k));
+    // a default that follows another one, and those of an array
+    assert!(close(x.a_w_max_mm_s2(), 1000.0) && close(x.tr_w_min_s(), 0.01));
+    let filter = |k| x.get(table::axis_guard::IPC_TYPE.at(1).and(k));
     assert_eq!((filter(0).as_deref(), filter(1).as_deref()), (Some("BANDPASS"), Some("NO_FILTER")));
-    assert!(close(machine.axis("X").unwrap().tr_w_min_s(), 0.01));
-    assert!(close(machine.axis("S").unwrap().kv_1_s(), 10.0));
-    let c = &machine.channel;
-    assert_eq!(
-        (c.dynamics.slope, c.feed.start_mm_s, c.look_ahead_blocks),
-        (SlopeKind::Step, None, 120)
-    );
-    assert_eq!(c.dynamics.transition_jerk, TransitionJerkMode::Coupled);
-    assert_eq!(c.feed.axes, [true, true]);
-    assert!(close(c.feed.unit_mm_min, 1.0) && close(c.arc_centre.radius_difference_mm, 0.005));
-    assert!(close(c.arc_centre.shift_ratio, 0.05) && close(c.arc_centre.shift_mm, 2.0));
-    assert!(close(c.arc_centre.radius_difference_ratio, 0.001));
-}
-
-#[test]
-fn channel_values_are_converted() {
-    let mut files = Memory::machine();
-    files.add(
-        "m/lists/channel.lis",
-        "prog_start.slope.profile 2\nprog_start.feedrate 3000\nprog_start.feedrate_factor 0.1\n\
-         mode_trans_jerk 2\nvector.velocity 6000\nvector.acceleration 1500\nvector.acc_dec_unit mm_s2\n\
-         mittelpkt_diff 100\nm_prozess_zeit[7] 500000\nspindel[0].m3_prozess_zeit 1500000\n\
-         prog_start.g_gruppe[14].nr 91\np_param_haltend 1\ng85_prog_file drill.nc\n\
-         g800_prog_file[0] *\n\
-         g800_prog_file[39] pattern.nc\n\
-         gruppe[0].achse[1].default_feed_axis 1\n",
-    );
-    files.add(
-        "m/hochlauf.lis",
-        "configuration.channel[0].interpolator.function FCT_LOOK_AHEAD_CUSTOM\n\
-         configuration.channel[0].interpolator.number_blocks_lah 500\n",
-    );
-    let (machine, warnings) = files.load(&[]).unwrap();
-    assert_eq!(warnings, []);
-    let c = machine.channel;
-    assert_eq!((c.dynamics.slope, c.look_ahead_blocks), (SlopeKind::Sin2, 500));
-    assert_eq!(c.dynamics.transition_jerk, TransitionJerkMode::DirectJerk);
-    assert!(close(c.feed.start_mm_s.unwrap(), 50.0) && close(c.feed.unit_mm_min, 1000.0));
-    assert!(
-        close(c.dynamics.vector.vel_mm_s.unwrap(), 100.0)
-            && close(c.dynamics.vector.acc_mm_s2.unwrap(), 1500.0)
-    );
-    assert!(close(c.arc_centre.shift_mm, 0.01));
-    assert!(close(c.functions.m_durations_s[&7], 0.5));
-    assert_eq!(c.language.g_groups[&14], 91);
-    let programs: Vec<_> = c.programs.g8x.iter().map(|(g, name)| (*g, name.as_str())).collect();
-    assert_eq!(programs, [(85, "drill.nc"), (839, "pattern.nc")]);
-    assert!(c.variables.keep_p_parameters);
-    assert_eq!(c.feed.axes, [false, true]);
 }
 
 #[test]
@@ -242,80 +175,19 @@ fn entries_of_kontur_lis_that_nothing_reads() {
     assert_eq!(said(&format!("{two}kontur.axis[1].plant.ta_us 5000\n")), [2]);
 }
 
-/// One mass alone is a share of the whole; of two only the ratio counts.
+/// The rows of `interpreter/tests/lists` state what settings lead to.
 #[test]
-fn masses_of_motor_and_load() {
-    let ratio = |keys: &[&str]| {
-        let entries = ["model TWO_MASS"].iter().chain(keys);
-        let lines = entries.map(|entry| format!("kontur.axis[1].plant.{entry}\n"));
-        let mut files = Memory::machine();
-        files.put("m/kontur.lis", &lines.collect::<String>());
-        let (machine, _) = files.load(&[]).unwrap();
-        match &machine.chains().0[0].control.plant.model {
-            PlantModel::TwoMass(config) => config.load_to_motor_ratio,
-            other => panic!("{other:?}"),
-        }
-    };
-    for keys in [
-        &["mass_motor 0.8"][..],
-        &["mass_load 0.2"],
-        &["mass_motor 0.8", "mass_load 0.2"],
-        &["mass_motor 20", "mass_load 5"],
-    ] {
-        assert!((ratio(keys) - 0.25).abs() < 1e-12, "{keys:?}");
-    }
-    // no share of a whole: reported, see the rows of the lists
-    for keys in [&["mass_motor 1"][..], &["mass_load 20"], &[]] {
-        assert!((ratio(keys) - 1.0).abs() < 1e-12, "{keys:?}");
-    }
-}
-
-/// Several axes by name, and all path axes, which excludes the spindle.
-#[test]
-fn overrides_of_several_axes() {
-    let gains = |text: &str| {
-        let (machine, _) = Memory::machine().load(&[text]).unwrap();
-        machine.all_axes().map(|a| a.raw("getriebe[0].kv").unwrap()).collect::<Vec<_>>()
-    };
-    let plain = gains("channel.prog_start.feedrate=600");
-    assert_eq!(gains("*.getriebe[0].kv=4321"), [4321.0, 4321.0, plain[2]]);
-    assert_eq!(gains("x, S.getriebe[0].kv=4321"), [4321.0, plain[1], 4321.0]);
-}
-
-#[test]
-fn overrides_that_name_nothing_are_errors() {
-    let files = Memory::machine();
-    for (text, hint) in [
-        (
-            "Q.getriebe[0].kv=1",
-            "use X, Y, S (several separated by commas), * for every path axis, channel, start_up, tool, zero, external or kontur",
-        ),
-        // one mistake is reported once, for any number of axes
-        ("*.kv=1", "did you mean `getriebe[i].kv`?"),
-        ("X.vorsteuer.jerk_fact_nom=1", "did you mean `vorsteuer.jerk_fact_num`?"),
-        ("X.kv=1", "did you mean `getriebe[i].kv`?"),
-    ] {
-        let errors = files.load(&[text]).unwrap_err();
-        assert_eq!(errors.iter().map(|d| d.id).collect::<Vec<_>>(), [Condition::Setting], "{text}");
-        assert_eq!(errors[0].hint.as_deref(), Some(hint), "{text}");
-    }
-    for (text, beyond) in [
-        ("X.filter[7].order=1", "`filter[7].order`: index 7 of filter is outside 0 to 2"),
-        (
-            "channel.gruppe[1].achs_anzahl=1",
-            "`gruppe[1].achs_anzahl`: index 1 of gruppe does not exist, only index 0",
-        ),
-    ] {
-        let errors = files.load(&[text]).unwrap_err();
-        assert_eq!(errors[0].text, beyond);
-        assert_ne!(errors[0].hint.as_deref().map(|hint| hint.contains("did you mean")), Some(true));
-    }
-    let errors = files.load(&["X.getriebe[0].kv=fast"]).unwrap_err();
-    assert_eq!(errors[0].id, Condition::Setting);
+fn settings_that_cannot_be_one() {
     for text in ["X", "X=1", "X.=1", ".a=1", "X.kv="] {
         assert!(Override::parse(text).is_err(), "{text}");
     }
+    // an index beyond its array is no misspelt key
+    for text in ["X.filter[7].order=1", "channel.gruppe[1].achs_anzahl=1"] {
+        let errors = Memory::machine().load(&[text]).unwrap_err();
+        assert_ne!(errors[0].hint.as_deref().map(|hint| hint.contains("did you mean")), Some(true));
+    }
 }
+
 #[test]
 fn the_builtin_machine_loads_without_a_message() {
     let (machine, warnings) = Machine::builtin(&[]).unwrap();
@@ -369,17 +241,6 @@ fn tool_lists() {
     let mut missing = Memory::machine();
     missing.add("m/hochlauf.lis", "werkz_data[0] lists/tools.lis\n");
     assert_eq!(missing.ids(&[]), ["K-0153"]);
-}
-
-/// A setting is read like a line of a list: a missing index is 0, and is reported.
-#[test]
-fn settings_have_the_messages_of_lists() {
-    let files = Memory::machine();
-    let kv = |set: &str| files.load(&[set]).unwrap().0.axes[0].kv_1_s().to_bits();
-    assert_eq!(kv("X.getriebe[].kv=2500"), kv("X.getriebe[0].kv=2500"));
-    assert_eq!(files.load(&["X.getriebe[].kv=2500"]).unwrap().1[0].id, Condition::ListIndex);
-    assert!(files.load(&["X.getriebe[0].kv=2500"]).unwrap().1.is_empty());
-    assert_eq!(files.load(&["*.getriebe[].kv=2500"]).unwrap().1.len(), 1);
 }
 
 /// TF5200 zero offsets: P-ZERO-00002 to 00004.

@@ -2,56 +2,6 @@
 
 use super::*;
 
-/// P-AXIS-00223 permits, the program selects; P-AXIS-00255 always selects. Conformance: F001, F005, F006, F008, F078.
-#[test]
-fn feedforward_of_an_axis() {
-    let mode = |names: &str| format!("X.vorsteuer.vorsteuerung={names}");
-    near(last(&mode("NONE"), 1.0).lag_mm, 2.0, 1e-6);
-    near(last(&mode("VEL"), 0.0).lag_mm, 2.0, 1e-6);
-    near(last(&mode("VEL"), 1.0).lag_mm, 0.0, 1e-6);
-    let weighted = format!("{} X.vorsteuer.vs_v_faktor=9 X.vorsteuer.vs_v_nenner=10", mode("VEL"));
-    near(last(&weighted, 1.0).lag_mm, 0.2, 1e-6);
-    // acceleration and jerk alone: nothing at constant speed, something during acceleration
-    for names in ["ACC", "JERK", "VEL|JERK", "3"] {
-        let settings = format!("{} X.vorsteuer.vs_a_faktor=5000", mode(names));
-        assert_eq!(ids(&settings), [""; 0], "{names}");
-        let fed: Vec<f64> =
-            drive(&settings, 1.0).iter().map(|o| o.feedforward.speed_mm_s).collect();
-        let highest = fed.iter().copied().fold(0.0, f64::max);
-        match names {
-            // a Ta
-            "ACC" => {
-                near(fed[50], 5.0, 1e-6);
-                near(fed[999], 0.0, 1e-6);
-            }
-            "JERK" => {
-                assert!(highest > 0.0);
-                near(fed[999], 0.0, 1e-6);
-            }
-            _ => near(fed[999], 100.0, 1e-6),
-        }
-    }
-    let (machine, _) = machine(&split("X.vorsteuer.default_active=1"));
-    let feedforward = machine.chains().0.swap_remove(0).control.feedforward;
-    near(feedforward.gain(false, 1.0), 1.0, 0.0);
-}
-
-/// Weight of the velocity alone, and a weight above 1 that makes the axis lead. Conformance: F007, F012.
-#[test]
-fn weights_of_feedforward() {
-    let over = last("X.vorsteuer.vs_v_faktor=12 X.vorsteuer.vs_v_nenner=10", 1.0);
-    near(over.lag_mm, -0.4, 1e-6);
-    let settings = |weights: &str| {
-        format!("X.vorsteuer.vorsteuerung=3 X.vorsteuer.vs_a_faktor=5000 {weights}")
-    };
-    let fed = |weights: &str, k: usize| drive(&settings(weights), 1.0)[k].feedforward.speed_mm_s;
-    let fewer = "X.vorsteuer.feedforward_v_add_num=8 X.vorsteuer.feedforward_v_add_denom=10";
-    // constant speed: the velocity part alone
-    near(fed(fewer, 999), 0.8 * fed("", 999), 1e-9);
-    // during acceleration: the acceleration part, 5 mm/s, is unchanged
-    near(fed("", 50) - fed(fewer, 50), 0.2 * (fed("", 50) - 5.0), 1e-9);
-}
-
 /// Additive variant: nothing at the controller, both parts after the global weight. Conformance: F015, F016.
 #[test]
 fn additive_feedforward() {

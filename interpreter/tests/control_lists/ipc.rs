@@ -2,36 +2,6 @@
 
 use super::*;
 
-/// Stages beyond the third and the spelling of the text; names of modes are rows of `lists/values_of_axes.txt`. Conformance: I002, I036.
-#[test]
-fn keys_of_the_stages() {
-    let ipc = |more: &str| {
-        let (machine, found) = machine(&split(&stage(more)));
-        assert_eq!(found, []);
-        machine.chains().0.swap_remove(0).control.ipc
-    };
-    let three: Vec<String> = (1..3)
-        .map(|i| {
-            let stage = format!("{IPC}.stage[{i}]");
-            format!(
-                "{stage}.mode=DIRECT {stage}.filter[0].order=1 {stage}.filter[0].fg_f0={} \
-                 {stage}.filter[0].q_factor=5",
-                100 * i
-            )
-        })
-        .collect();
-    assert_eq!(ipc(&three.join(" ")).stages.len(), 3);
-    let said = |key: &str| {
-        let mut found = Vec::new();
-        let text = format!("lr_param.improved_position_control.{key}\n");
-        lists::read(ListKind::Axis, "x.lis", text.as_bytes(), &mut found);
-        assert_eq!(found[0].id.to_string(), "1001119");
-        found[0].hint.clone().unwrap_or_default()
-    };
-    said("stage[3].mode 1");
-    assert!(said("stages[0].mode 1").contains("stage[i].mode"), "{}", said("stages[0].mode 1"));
-}
-
 /// Of X alone; the limit P-AXIS-00757 is a share of P-AXIS-00212; disabled, the axis is like one without.
 /// Conformance: I003, I044, I045, I047.
 #[test]

@@ -1,6 +1,6 @@
 //! Subroutines, cycles and ends of programs.
 
-use super::{EndReason, Event, Options, Run, machine, run, run_with};
+use super::{EndReason, Options, Run, machine, run, run_with};
 use crate::source::MemorySources;
 use kontur_kit::Random;
 
@@ -86,32 +86,4 @@ fn sequences_begin_at_the_first_block_of_their_number() {
         assert_eq!(run.ids(), vec!["K-0109"; usize::from(repeats)], "{seed}: N{wanted}");
         assert_eq!(run.end, [0.0, first as f64, 0.0], "{seed}: N{wanted}");
     }
-}
-
-/// Source: channel parameters 476043659. G135 and G151 have no values; G136 has axis names and stays.
-#[test]
-fn the_end_of_a_cycle_gives_feedforward_and_splines_back() {
-    let last = |before: &str, cycle: &str| {
-        let main = format!("{before}\nL CYCLE [NAME=c.nc]\nM30\n");
-        let cycle = format!("{cycle}\nM17\n");
-        let run =
-            listed(&["X,Y,Z.vorsteuer.vs_v_faktor=1000"], &[("main.nc", &main), ("c.nc", &cycle)]);
-        let feedforward = |e: &&Event| matches!(e, Event::Feedforward { .. });
-        match run.events().into_iter().rfind(feedforward) {
-            Some(Event::Feedforward { on, weight_ratios }) => Some((*on, weight_ratios[0])),
-            _ => None,
-        }
-    };
-    assert_eq!(last("G137", "G135"), Some((false, 1.0)));
-    assert_eq!(last("G135", "G137"), Some((true, 1.0)));
-    assert_eq!(last("G135", "G137\nG136 X80"), Some((true, 0.8)));
-    assert_eq!(last("G137", "#RETAIN CYCLE CHANGES\nG135"), Some((true, 1.0)));
-    let spline = |cycle: &str, after: &str| {
-        let main = format!("G01 X0 F100\nL CYCLE [NAME=c.nc]\n{after}\nM30\n");
-        let cycle = format!("{cycle}\nM17\n");
-        let run = listed(&[], &[("main.nc", &main), ("c.nc", &cycle)]);
-        run.blocks().iter().map(|b| b.path.is_straight()).collect::<Vec<_>>()
-    };
-    assert_eq!(spline("G151 X1 Y1\nX2 Y0", "X3 Y1\nX4 Y0"), [false, false, true, true]);
-    assert_eq!(spline("G91", "G151 G90 X3 Y1\nX4 Y0"), [false, false]);
 }

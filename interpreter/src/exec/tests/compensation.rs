@@ -5,12 +5,6 @@ use kontur_motion::block::Feed;
 use kontur_motion::path::Path;
 use std::f64::consts::PI;
 
-const TOOL: &str = "V.G.WZ[1].R=2\nG26 D1 F100\n";
-
-fn ends(text: &str) -> Vec<Vec<f64>> {
-    clean(&format!("{TOOL}{text}\nM30\n")).ends()
-}
-
 /// The star of the page on inside corner selection (207798283): eight lines around the origin, with radius 10 inside it. The path
 /// passes each tip at the distance r / sin(half of its angle) from the corner, each notch at r / sin(half of the outer angle).
 #[test]
@@ -111,15 +105,4 @@ fn lines_of_acute_corners_stretch() {
         same(corner(&format!("\n#TRC [STRETCH_FACTOR={factor}]")), &tip);
     }
     same(corner("\n#TRC [STRETCH_FACTOR=9]\n#TRC [STRETCH_FACTOR=1]"), &stretched(1.0));
-}
-
-/// Back and forth on the same side of a slot: the tool reverses at its position.
-#[test]
-fn a_contour_that_runs_back_changes_its_side_in_place() {
-    let there_and_back = "X-5 Y0\nG41 X0 Y0\nX20\nG42 X0\nG40 X-10 Y5";
-    let across = ends(there_and_back);
-    assert_eq!(across, ends(&format!("#TRC [REVERSE=1]\n#TRC [REVERSE=0]\n{there_and_back}")));
-    // a corner is not a reversal: the usual change of side
-    let corner = "X-5 Y0\nG41 X0 Y0\nX20\nG42 X5 Y10\nX-20\nG40 Y30";
-    assert_eq!(ends(corner), ends(&format!("#TRC [REVERSE=1]\n{corner}")));
 }

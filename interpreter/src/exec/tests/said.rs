@@ -33,3 +33,10 @@ fn values_of_an_error_have_the_meanings_that_the_program_states() {
     let kinds: Vec<_> = d.values.iter().map(|value| value.kind).collect();
     assert_eq!((kinds, d.multiple_id), (vec![Current, Wrong, UpperLimit], 7));
 }
+
+#[test]
+fn values_of_a_wrong_mode() {
+    let mode = run("#VIB GUARD ON [MODE=5]\nM30\n");
+    let values: Vec<_> = mode.diagnostics[0].values.iter().map(|v| v.value.clone()).collect();
+    assert_eq!(values, [5.0.into(), 1.0.into(), 4.0.into()]);
+}

@@ -4,6 +4,7 @@
 use super::{Event, Options, Run, Step, Sync, machine, places, run_with, shown};
 use crate::diag::Diagnostic;
 use crate::exec::SpindleMotion;
+use crate::exec::step::ShapingSettings;
 use crate::machine::Machine;
 use crate::source::MemorySources;
 use kontur_kit::rows::{fits, is, lines, rows};
@@ -14,9 +15,24 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// Words that begin a list in a row.
-const LISTS: [&str; 15] = [
-    "path", "length", "arc", "feed", "end", "ratio", "late", "slope", "acc", "vector", "contour",
-    "spline", "angle", "steps", "does",
+const LISTS: [&str; 17] = [
+    "path",
+    "length",
+    "arc",
+    "feed",
+    "end",
+    "ratio",
+    "late",
+    "slope",
+    "acc",
+    "vector",
+    "contour",
+    "spline",
+    "angle",
+    "tolerance",
+    "guard",
+    "steps",
+    "does",
 ];
 
 /// Results of a run, by the word that introduces them in a row; messages have no such word.
@@ -46,6 +62,8 @@ fn found(word: &str, run: &Run) -> Vec<String> {
         "contour" => blocks.map(|block| contour(block.contour.map(|c| c.mode))).collect(),
         "angle" => blocks.map(|block| value(block.spline.map(|s| s.max_angle_deg))).collect(),
         "spline" => blocks.map(|block| value(block.spline.map(|s| s.path_dev_mm))).collect(),
+        "tolerance" => blocks.map(|block| value(block.tolerance.ax_dev_mm)).collect(),
+        "guard" => run.steps.iter().filter_map(guard).collect(),
         "steps" => run.steps.iter().filter_map(step).collect(),
         "does" => run.events().into_iter().filter_map(done).collect(),
         _ => places(&run.diagnostics).iter().map(|place| place.replace(' ', "@")).collect(),
@@ -87,6 +105,16 @@ fn contour(mode: Option<ContourMode>) -> String {
         Some(ContourMode::Dist { pre_mm, post_mm }) => format!("dist,{pre_mm},{post_mm}"),
         Some(other) => format!("{other:?}"),
     }
+}
+
+/// What a command makes of the filters of X: mode, frequency and damping of its guard, the length of another kernel, or no kernel.
+fn guard(step: &Step) -> Option<String> {
+    let Step::Sync { what: Sync::Shaping(setup), .. } = step else { return None };
+    Some(match (&setup.axes[0].kernel, setup.axes[0].settings) {
+        (None, _) => "-".to_owned(),
+        (_, ShapingSettings::VibGuard(of)) => format!("{},{},{}", of.mode, of.freq_hz, of.damping),
+        (Some(kernel), _) => kernel.length().to_string(),
+    })
 }
 
 /// A motion, or the reason for a stop of the path: s, or the axis with a changed list.
