@@ -40,41 +40,63 @@ pub(crate) fn diff(args: &DiffArgs, console: &mut Console) -> Result<Exit, Error
         let text = format!("{option}: both files are traces, there is nothing to run");
         return Err(Error::Usage(text));
     }
-    let mut open = |path: &Path, trace: bool, like: Option<&[String]>| {
-        if trace {
-            return Table::read(path);
-        }
-        let opened = args.simulation.request(path).open();
-        let opened = opened.map_err(|e| crate::run::announce_lists(e, console))?;
-        Table::run(opened.run, like)
-    };
-    let names = [args.a.display().to_string(), args.b.display().to_string()];
-    if !args.map.is_empty() {
-        let mut a = open(&args.a, is_a, Some(&recording::columns(&args.map)))?;
-        let outcome = recording::compare(&mut a, &args.b, &args.map, args.rate, args.tolerance);
-        for message in a.take_messages() {
-            console.announce(&message);
-        }
-        let outcome = match outcome {
-            // what cannot be compared is a consequence of the messages
-            Err(Error::Usage(_)) if a.has_failed() => return Ok(Exit::Aborted),
-            outcome => outcome?,
-        };
-        let aborted = failed(&names, [a.has_failed(), false]);
-        let program = (!is_a).then_some(args.a.as_path());
-        let verdict = || recording::verdict(&outcome, program);
-        let words = || recording::text(&names, &outcome);
-        let done = Done { names: &names, outcome: &outcome, equal: outcome.equal, aborted };
-        return done.report(args.format, words, verdict, console);
+    if args.map.is_empty() {
+        diff_rows(args, [is_a, is_b], console)
+    } else {
+        diff_recording(args, is_a, console)
     }
-    // a fresh run produces the columns of the trace that it is compared with
+}
+
+/// A trace, or the rows of a fresh run, if possible with the given columns.
+fn open(
+    path: &Path,
+    is_trace: bool,
+    like: Option<&[String]>,
+    (args, console): (&DiffArgs, &mut Console),
+) -> Result<Table, Error> {
+    if is_trace {
+        return Table::read(path);
+    }
+    let opened = args.simulation.request(path).open();
+    let opened = opened.map_err(|e| crate::run::announce_lists(e, console))?;
+    Table::run(opened.run, like)
+}
+
+/// A, a trace or a program, against the recording of a machine.
+fn diff_recording(args: &DiffArgs, is_a: bool, console: &mut Console) -> Result<Exit, Error> {
+    let names = [args.a.display().to_string(), args.b.display().to_string()];
+    let mut a = open(&args.a, is_a, Some(&recording::columns(&args.map)), (args, console))?;
+    let outcome = recording::compare(&mut a, &args.b, &args.map, args.rate, args.tolerance);
+    for message in a.take_messages() {
+        console.announce(&message);
+    }
+    let outcome = match outcome {
+        // what cannot be compared is a consequence of the messages
+        Err(Error::Usage(_)) if a.has_failed() => return Ok(Exit::Aborted),
+        outcome => outcome?,
+    };
+    let aborted = failed(&names, [a.has_failed(), false]);
+    let program = (!is_a).then_some(args.a.as_path());
+    let verdict = || recording::verdict(&outcome, program);
+    let words = || recording::text(&names, &outcome);
+    let done = Done { names: &names, outcome: &outcome, equal: outcome.equal, aborted };
+    done.report(args.format, words, verdict, console)
+}
+
+/// Two traces or programs, row by row; a fresh run produces the columns of the trace that it is compared with.
+fn diff_rows(
+    args: &DiffArgs,
+    [is_a, is_b]: [bool; 2],
+    console: &mut Console,
+) -> Result<Exit, Error> {
+    let names = [args.a.display().to_string(), args.b.display().to_string()];
     let (mut a, mut b) = if is_a || !is_b {
-        let a = open(&args.a, is_a, None)?;
-        let b = open(&args.b, is_b, Some(a.header()))?;
+        let a = open(&args.a, is_a, None, (args, console))?;
+        let b = open(&args.b, is_b, Some(a.header()), (args, console))?;
         (a, b)
     } else {
-        let b = open(&args.b, is_b, None)?;
-        (open(&args.a, is_a, Some(b.header()))?, b)
+        let b = open(&args.b, is_b, None, (args, console))?;
+        (open(&args.a, is_a, Some(b.header()), (args, console))?, b)
     };
     let mut progress = console.progress();
     let mut comparison = Comparison::new(a.header(), b.header(), args.tolerance);

@@ -296,9 +296,10 @@ impl Decoder {
             Act::EngagementFeed(on) => {
                 self.modal.engagement_feed = on;
                 if on {
-                    let text = "G11: arcs inserted at corners by the compensation keep the programmed feed";
-                    self.report
-                        .note_once(Subject::G(11), Fault::new(Condition::Fallback, text, g.span));
+                    self.simplified(
+                        g,
+                        "arcs inserted at corners by the compensation keep the programmed feed",
+                    );
                 }
             }
             Act::Banding(on) => {
@@ -310,37 +311,37 @@ impl Decoder {
                 )?;
             }
             Act::LateBraking(late) => self.modal.late_braking = late,
-            Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
-            Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::WeightOfAll(weight) => {
                 let ratio = weight_ratio((g.value.unwrap_or_default(), g.span))?;
                 self.set_weight(weight, None, ratio, g.span);
             }
             Act::Feedforward(on) => self.motion.switch_feedforward(on, output!(self), g.span),
-            // Assumption: without axes, every transition is a stop; the pages do not define the values of the axes
-            Act::StopAtTransitions(_) if !words.axes.is_empty() => {
-                let what = format!("G{} with axes", g.row.number);
-                return Err(Fault::unsupported(what, g.span));
-            }
-            Act::StopAtTransitions(stop) => {
-                let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
-                if std::mem::replace(&mut self.modal.look_ahead, mode) != mode {
-                    self.motion.limits.changed();
-                }
-            }
+            Act::StopAtTransitions(stop) => self.stop_at_transitions(stop, g, words)?,
             Act::LookAheadFunctions => look_ahead_functions(g, &mut self.report)?,
+            Act::Ignored(why) => {
+                let text = format!("G{:02} has no effect: {why}", g.row.number);
+                let fault = Fault::new(Condition::Ignored, text, g.span);
+                self.report.note_once(Subject::G(g.row.number), fault);
+            }
+            Act::Simplified(how) => {
+                if g.row.number == 74 {
+                    self.geometry.home(g, words, &self.motion.couplings)?;
+                }
+                self.simplified(g, how);
+            }
+            _ => self.mode_of_contour(g, words)?,
+        }
+        Ok(())
+    }
+
+    /// Modes of arcs, compensation and splines.
+    fn mode_of_contour(&mut self, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        match g.row.act {
+            Act::CentreAbsolute(on) => self.modal.centre_absolute = on,
+            Act::CentreCorrection(on) => self.modal.centre_correction = on,
             Act::Compensation(side) => self.compensation(side, g.span)?,
             Act::Diameter(false) => self.modal.diameter = None,
-            Act::Diameter(true) => {
-                let axis = self.geometry.diameter_axis(
-                    self.modal.plane,
-                    &self.machine,
-                    &self.names,
-                    &mut self.report,
-                    g.span,
-                )?;
-                self.modal.diameter = Some(axis);
-            }
+            Act::Diameter(true) => self.program_diameters(g.span)?,
             Act::Spline(false) if self.contour.hsc.spline().is_some() => {
                 let text = "a spline is deselected (G150) while #HSC ON [BSPLINE] is active";
                 return Err(Fault::new(Condition::SplineInSurface, text, g.span));
@@ -356,21 +357,43 @@ impl Decoder {
                 self.modal.radius_mm = Some(radius);
                 self.modal.centre_mm = [None; 3];
             }
-            Act::Ignored(why) => {
-                let text = format!("G{:02} has no effect: {why}", g.row.number);
-                let fault = Fault::new(Condition::Ignored, text, g.span);
-                self.report.note_once(Subject::G(g.row.number), fault);
-            }
-            Act::Simplified(how) => {
-                if g.row.number == 74 {
-                    self.geometry.home(g, words, &self.motion.couplings)?;
-                }
-                let text = format!("G{}: {how}", g.row.number);
-                let fault = Fault::new(Condition::Fallback, text, g.span);
-                self.report.note_once(Subject::G(g.row.number), fault);
-            }
             _ => {}
         }
+        Ok(())
+    }
+
+    /// A G function of which only a part is simulated, said once.
+    fn simplified(&mut self, g: &GWord, how: &str) {
+        let text = format!("G{}: {how}", g.row.number);
+        let fault = Fault::new(Condition::Fallback, text, g.span);
+        self.report.note_once(Subject::G(g.row.number), fault);
+    }
+
+    /// G116 and G117.
+    ///
+    /// Assumption: without axes, every transition is a stop; the pages do not define the values of the axes.
+    fn stop_at_transitions(&mut self, stop: bool, g: &GWord, words: &Words<'_>) -> Outcome<()> {
+        if !words.axes.is_empty() {
+            let what = format!("G{} with axes", g.row.number);
+            return Err(Fault::unsupported(what, g.span));
+        }
+        let mode = if stop { LookAhead::StopAtTransitions } else { LookAhead::Complete };
+        if std::mem::replace(&mut self.modal.look_ahead, mode) != mode {
+            self.motion.limits.changed();
+        }
+        Ok(())
+    }
+
+    /// G51.
+    fn program_diameters(&mut self, span: Span) -> Outcome<()> {
+        let axis = self.geometry.diameter_axis(
+            self.modal.plane,
+            &self.machine,
+            &self.names,
+            &mut self.report,
+            span,
+        )?;
+        self.modal.diameter = Some(axis);
         Ok(())
     }
 }

@@ -13,6 +13,7 @@ use crate::diag::{Condition, ValueKind};
 use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::syntax::ast::{CodeNumber, Expr, HashWord, Span, Word, WordKind};
+use smallvec::SmallVec;
 
 impl Code {
     /// An M or H function and its value; `letter`: which of the two.
@@ -99,21 +100,9 @@ impl Decoder {
 
     fn collect_word<'b>(&mut self, word: &'b Word, block: &mut Words<'b>) -> Outcome<()> {
         let span = word.span;
-        if block.call.is_some() && !matches!(word.kind, WordKind::Call(_)) {
-            let text = "nothing may follow a subroutine or cycle call in its block";
-            return Err(Fault::new(Condition::BehindCall, text, span));
-        }
-        if block.addition.is_some() {
-            let text = "a word after #ADD, which must be last in its block";
-            return Err(Fault::new(Condition::BehindAddition, text, span));
-        }
+        may_stand_here(word, block)?;
         match &word.kind {
             WordKind::Address { name, sign, value } => {
-                if block.assigned_to == Some(span.start) && name.letter() == Some(b'E') {
-                    let text = "numbers cannot have an exponent in this dialect";
-                    return Err(Fault::new(Condition::Syntax, text, span)
-                        .hint("write 1000 for 1e3, 0.00001 for 1e-05"));
-                }
                 self.address(name, *sign, value, span, block)
             }
             WordKind::G { number, value } => self.g_word(*number, value.as_deref(), span, block),
@@ -123,22 +112,17 @@ impl Decoder {
             }
             WordKind::M(number, value) => {
                 let code = Code::read(self, number, value.as_deref(), "M", span)?;
-                once(&block.m, &code, "M", Condition::MTwice)?;
-                block.m.push(code);
-                Ok(())
+                once(&mut block.m, code, "M", Condition::MTwice)
             }
             WordKind::Return(back) => {
                 let code = Code { number: back.number, value: None, span };
-                once(&block.m, &code, "M", Condition::MTwice)?;
-                block.m.push(code);
+                once(&mut block.m, code, "M", Condition::MTwice)?;
                 block.back = Some((back, span));
                 Ok(())
             }
             WordKind::H(number, value) => {
                 let code = Code::read(self, number, value.as_deref(), "H", span)?;
-                once(&block.h, &code, "H", Condition::HTwice)?;
-                block.h.push(code);
-                Ok(())
+                once(&mut block.h, code, "H", Condition::HTwice)
             }
             WordKind::Bracket(bracket) => {
                 block.brackets.push(bracket);
@@ -195,11 +179,40 @@ impl Decoder {
 }
 
 /// A function may appear only once in a block.
-fn once(written: &[Code], code: &Code, letter: &str, condition: Condition) -> Outcome<()> {
-    if !written.iter().any(|other| other.number == code.number) {
-        return Ok(());
+fn once<A: smallvec::Array<Item = Code>>(
+    written: &mut SmallVec<A>,
+    code: Code,
+    letter: &str,
+    condition: Condition,
+) -> Outcome<()> {
+    if written.iter().any(|other| other.number == code.number) {
+        let text = format!("{letter}{} twice in one block", code.number);
+        return Err(Fault::new(condition, text, code.span)
+            .with(|d| d.value(ValueKind::Current, code.number, "-")));
     }
-    let text = format!("{letter}{} twice in one block", code.number);
-    Err(Fault::new(condition, text, code.span)
-        .with(|d| d.value(ValueKind::Current, code.number, "-")))
+    written.push(code);
+    Ok(())
+}
+
+/// Refuses a word after one that must be the last, and an exponent.
+fn may_stand_here(word: &Word, block: &Words<'_>) -> Outcome<()> {
+    let span = word.span;
+    if block.call.is_some() && !matches!(word.kind, WordKind::Call(_)) {
+        let text = "nothing may follow a subroutine or cycle call in its block";
+        return Err(Fault::new(Condition::BehindCall, text, span));
+    }
+    if block.addition.is_some() {
+        let text = "a word after #ADD, which must be last in its block";
+        return Err(Fault::new(Condition::BehindAddition, text, span));
+    }
+    match &word.kind {
+        WordKind::Address { name, .. }
+            if block.assigned_to == Some(span.start) && name.letter() == Some(b'E') =>
+        {
+            let text = "numbers cannot have an exponent in this dialect";
+            Err(Fault::new(Condition::Syntax, text, span)
+                .hint("write 1000 for 1e3, 0.00001 for 1e-05"))
+        }
+        _ => Ok(()),
+    }
 }

@@ -292,14 +292,8 @@ impl Compensator {
             Some(_) => moving_side(&motion, plane)?,
             None => None,
         };
-        if let Some((at, away)) = at {
-            let path = &motion.block.path;
-            let end = [path.end()[plane[0]], path.end()[plane[1]]];
-            let way = match away {
-                Some(tangent) => tangential::way(&motion, plane, (at, end), tangent, Touch::Start)?,
-                None => line(&motion, plane, at, end),
-            };
-            let Some(path) = way else {
+        if let Some(left) = at {
+            let Some(path) = from_tool(&motion, left)? else {
                 vanished(motion.events, out);
                 return Ok(());
             };
@@ -329,15 +323,7 @@ impl Compensator {
         }
         let tilt = motion.tilt.clone();
         let (start, course) = if perpendicular {
-            let from = side.start_point();
-            let start = above(from, side.tangent(false), distance);
-            if let Some(mut there) =
-                straight_before(&motion, motion.block.path.start(), plane, from, start)
-            {
-                there.events = std::mem::take(&mut motion.events);
-                out.push(Item::Motion(there));
-            }
-            (start, Course::Parallel)
+            (onto_parallel(&mut motion, side, distance, out), Course::Parallel)
         } else if let Side::Line { from, .. } = side {
             let course = if tangential { Course::TangentialApproach } else { Course::Approach };
             (at.map_or(from, |(tool, _)| tool), course)
@@ -360,6 +346,29 @@ impl Compensator {
         self.active = Some(active);
         held
     }
+}
+
+/// The path of a motion from the position at which the tool was left, along an arc if it was left on one (G05); `None` if nothing is
+/// left of it.
+fn from_tool(motion: &Motion, (at, away): (Point, Option<Point>)) -> Fallible<Option<Path>> {
+    let (plane, path) = (motion.plane, &motion.block.path);
+    let end = [path.end()[plane[0]], path.end()[plane[1]]];
+    Ok(match away {
+        Some(tangent) => tangential::way(motion, plane, (at, end), tangent, Touch::Start)?,
+        None => line(motion, plane, at, end),
+    })
+}
+
+/// G237: a straight motion to the point above the start of the contour, which the function returns.
+fn onto_parallel(motion: &mut Motion, side: Side, distance: f64, out: &mut Vec<Item>) -> Point {
+    let from = side.start_point();
+    let start = above(from, side.tangent(false), distance);
+    let there = straight_before(motion, motion.block.path.start(), motion.plane, from, start);
+    if let Some(mut there) = there {
+        there.events = std::mem::take(&mut motion.events);
+        out.push(Item::Motion(there));
+    }
+    start
 }
 
 fn circular(motion: &Motion) -> Box<Fault> {

@@ -96,6 +96,26 @@ impl ContourLines {
         }
     }
 
+    /// The first of two lines, which has an angle alone.
+    fn begin(
+        &mut self,
+        angle_deg: f64,
+        words: &Words<'_>,
+        span: Span,
+        source: SourceRef,
+    ) -> Outcome<ContourLine> {
+        let inserts = words.group(Group::Insertion).is_some()
+            || words.group(Group::Transition).is_some()
+            || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
+        let refused = inserts || !words.axes.is_empty();
+        self.open = Some(FirstLine { angle_deg, span, source, refused });
+        if refused {
+            let what = "the first of two contour lines with other words of motion";
+            return Err(Fault::unsupported(what, span));
+        }
+        Ok(ContourLine::Waits)
+    }
+
     /// Applies `#ANG` to the current block.
     pub(super) fn contour_line(
         &mut self,
@@ -119,18 +139,7 @@ impl ContourLines {
         let here = axes.map(|axis| geometry.coordinates.programmed(axis));
         let end = axes.map(|axis| geometry.end_of_contour_line(words, axis, machine, modal));
         match (self.open.take(), end) {
-            (None, [None, None]) => {
-                let inserts = words.group(Group::Insertion).is_some()
-                    || words.group(Group::Transition).is_some()
-                    || words.hashes.iter().any(|(hash, _, _)| &*hash.name != "ANG");
-                let refused = inserts || !words.axes.is_empty();
-                self.open = Some(FirstLine { angle_deg: angle, span, source, refused });
-                if refused {
-                    let what = "the first of two contour lines with other words of motion";
-                    return Err(Fault::unsupported(what, span));
-                }
-                Ok(ContourLine::Waits)
-            }
+            (None, [None, None]) => self.begin(angle, words, span, source),
             (None, [Some(_), Some(_)]) => {
                 let text = "#ANG with both coordinates of the plane";
                 Err(Fault::new(Condition::ContourLineTwice, text, span))

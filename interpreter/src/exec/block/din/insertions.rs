@@ -29,6 +29,36 @@ pub(super) fn inserts_after(words: &Words<'_>) -> bool {
 /// A chamfer or rounding that a block requests: kind, size in mm, place.
 type Request = (Kind, f64, Span);
 
+/// What is said of a key of the block that requests no insertion, if it has no effect beside these words.
+fn without_use(name: &str, words: &Words<'_>, span: Span) -> Option<Box<Fault>> {
+    match name {
+        "SUPPRESS OFFSETS" if words.axes.is_empty() => {
+            // 207072907: not modal, together with the words of a motion
+            let text = "#SUPPRESS OFFSETS without an axis word has no effect: it is not modal";
+            let fault = Fault::new(Condition::Odd, text, span).warning();
+            Some(fault.hint("write it in the block of the motion: #SUPPRESS OFFSETS X10"))
+        }
+        "PSET"
+        | "PRESET"
+        | "SUPPRESS OFFSETS"
+        | "SCALE"
+        | "SCALE ON"
+        | "SCALE OFF"
+        | "ANG"
+        | "CANG"
+        | "AKIMA STARTVECTOR"
+        | "AKIMA ENDVECTOR"
+        | "SET ASPLINE STARTTANG"
+        | "SET ASPLINE ZIELTANG" => None,
+        "ACHSE" if words.group(Group::Manual).is_some() => None,
+        "ACHSE" => {
+            let text = "#ACHSE without G200, G201 or G202";
+            Some(Fault::new(Condition::AxesWithoutManual, text, span))
+        }
+        other => Some(Fault::unsupported(format!("#{other}"), span)),
+    }
+}
+
 impl Modal {
     /// The chamfer or rounding of a block, between the motions before and after it.
     pub(super) fn insertions(
@@ -80,39 +110,13 @@ impl Modal {
                     }
                     continue;
                 }
-                "SUPPRESS OFFSETS" if words.axes.is_empty() => {
-                    // 207072907: not modal, together with the words of a motion
-                    let text =
-                        "#SUPPRESS OFFSETS without an axis word has no effect: it is not modal";
-                    let fault = Fault::new(Condition::Odd, text, *span).warning();
-                    report.note(
-                        fault.hint("write it in the block of the motion: #SUPPRESS OFFSETS X10"),
-                    );
-                    continue;
-                }
-                "PSET"
-                | "PRESET"
-                | "SUPPRESS OFFSETS"
-                | "SCALE"
-                | "SCALE ON"
-                | "SCALE OFF"
-                | "ANG"
-                | "CANG"
-                | "AKIMA STARTVECTOR"
-                | "AKIMA ENDVECTOR"
-                | "SET ASPLINE STARTTANG"
-                | "SET ASPLINE ZIELTANG" => continue,
-                "ACHSE" if words.group(Group::Manual).is_some() => continue,
-                "ACHSE" => {
-                    let text = "#ACHSE without G200, G201 or G202";
-                    report.note(Fault::new(Condition::AxesWithoutManual, text, *span));
-                    continue;
-                }
                 "CHR" => Kind::Chamfer,
                 "CHF" => Kind::ChamferLength,
                 "RND" => Kind::Rounding,
                 other => {
-                    report.note(Fault::unsupported(format!("#{other}"), *span));
+                    if let Some(fault) = without_use(other, words, *span) {
+                        report.note(fault);
+                    }
                     continue;
                 }
             };

@@ -73,53 +73,83 @@ impl Active {
         side: Side,
         out: &mut Vec<Item>,
     ) -> Fallible<Self> {
-        let Self { distance, perpendicular, plane, tilt, last, between, watch } = self;
-        let active = |start: Point, motion: Box<Motion>| {
-            let last = Element::parallel(motion, side, start);
-            Self { distance, perpendicular, plane, tilt, last, between: Vec::new(), watch }
-        };
-        let corner = side.start_point();
-        let after = above(corner, side.tangent(false), distance);
-        if last.course.approaches() {
-            if last.course == Course::TangentialApproach {
-                last.emit_arc(after, side.tangent(false), plane, out)?;
-            } else {
-                last.emit(after, plane, distance, out)?;
-            }
-            emit_between(between, after, plane, out);
-            return Ok(active(after, motion));
+        if self.last.course.approaches() {
+            return self.end_approach(motion, side, out);
         }
-        let (u, w) = (last.side.tangent(true), side.tangent(false));
-        let before = above(corner, u, distance);
+        let (u, w) = (self.last.side.tangent(true), side.tangent(false));
         let turn = cross(u, w);
         let smooth = turn.abs() < 1e-9 && dot(u, w) > 0.0;
-        let outside = !smooth && (turn * distance < 0.0 || (turn.abs() < 1e-9 && dot(u, w) < 0.0));
-        if !smooth && !outside {
-            let arcs = [&last.side, &side].iter().all(|side| matches!(side, Side::Arc { .. }));
-            let exact = inner_corner(&last.side, &side, corner, distance);
-            // two nearly tangent parallels have no intersection that is robust against rounding
-            let at =
-                exact.or((turn.abs() < ALL_BUT_SMOOTH).then_some(before)).ok_or_else(|| {
-                    if !arcs {
-                        let sides = [&last.side, &side];
-                        let short =
-                            sides.into_iter().min_by(|a, b| a.reach().total_cmp(&b.reach()));
-                        let condition = match short {
-                            Some(Side::Arc { .. }) => Condition::ArcRunsBack,
-                            _ => Condition::LineRunsBack,
-                        };
-                        return too_tight(condition, &motion);
-                    }
-                    let text = "the tool is too large for the corner between two arcs";
-                    Fault::new(Condition::ToolBetweenArcs, text, motion.span)
-                        .in_block(motion.source)
-                })?;
-            last.emit(at, plane, distance, out)?;
-            emit_between(between, at, plane, out);
-            return Ok(active(at, motion));
+        let back = turn.abs() < 1e-9 && dot(u, w) < 0.0;
+        if smooth {
+            let end = above(side.start_point(), u, self.distance);
+            self.go_on(motion, side, end, out)
+        } else if turn * self.distance < 0.0 || back {
+            self.outer(motion, side, out)
+        } else {
+            self.inner(motion, side, turn, out)
         }
-        let stretch = motion.compensation.and_then(|c| c.straight_corners).filter(|_| outside);
-        let by_lines = stretch.is_some();
+    }
+
+    /// The last element ends here, and the next one begins on its parallel.
+    fn go_on(
+        self,
+        motion: Box<Motion>,
+        side: Side,
+        at: Point,
+        out: &mut Vec<Item>,
+    ) -> Fallible<Self> {
+        self.last.emit(at, self.plane, self.distance, out)?;
+        emit_between(self.between, at, self.plane, out);
+        Ok(Self { last: Element::parallel(motion, side, at), between: Vec::new(), ..self })
+    }
+
+    /// The approach ends above the first point of the contour.
+    fn end_approach(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
+        let direction = side.tangent(false);
+        let after = above(side.start_point(), direction, self.distance);
+        if self.last.course != Course::TangentialApproach {
+            return self.go_on(motion, side, after, out);
+        }
+        self.last.emit_arc(after, direction, self.plane, out)?;
+        emit_between(self.between, after, self.plane, out);
+        Ok(Self { last: Element::parallel(motion, side, after), between: Vec::new(), ..self })
+    }
+
+    /// An inside corner: both parallels end where they meet.
+    fn inner(
+        self,
+        motion: Box<Motion>,
+        side: Side,
+        turn: f64,
+        out: &mut Vec<Item>,
+    ) -> Fallible<Self> {
+        let (sides, corner) = ([&self.last.side, &side], side.start_point());
+        let before = above(corner, self.last.side.tangent(true), self.distance);
+        let exact = inner_corner(&self.last.side, &side, corner, self.distance);
+        // two nearly tangent parallels have no intersection that is robust against rounding
+        let at = exact.or((turn.abs() < ALL_BUT_SMOOTH).then_some(before)).ok_or_else(|| {
+            if sides.iter().all(|side| matches!(side, Side::Arc { .. })) {
+                let text = "the tool is too large for the corner between two arcs";
+                return Fault::new(Condition::ToolBetweenArcs, text, motion.span)
+                    .in_block(motion.source);
+            }
+            let short = sides.into_iter().min_by(|a, b| a.reach().total_cmp(&b.reach()));
+            let condition = match short {
+                Some(Side::Arc { .. }) => Condition::ArcRunsBack,
+                _ => Condition::LineRunsBack,
+            };
+            too_tight(condition, &motion)
+        })?;
+        self.go_on(motion, side, at, out)
+    }
+
+    /// An outside corner: lines or an arc from one parallel to the other.
+    fn outer(self, motion: Box<Motion>, side: Side, out: &mut Vec<Item>) -> Fallible<Self> {
+        let Self { distance, plane, .. } = self;
+        let (u, w) = (self.last.side.tangent(true), side.tangent(false));
+        let corner = side.start_point();
+        let (before, after) = (above(corner, u, distance), above(corner, w, distance));
+        let stretch = motion.compensation.and_then(|c| c.straight_corners);
         let mut points = match stretch {
             Some(factor) => {
                 let radius = distance.abs();
@@ -128,15 +158,13 @@ impl Active {
             None => SmallVec::from_slice(&[before]),
         };
         // a line on its parallel is extended, after any other element its tangent is inserted
-        let first = points[0];
-        let extended = matches!(last.side, Side::Line { .. })
-            && matches!(last.course, Course::Parallel | Course::Corner);
-        let end = if extended { first } else { before };
-        let template = outside.then(|| last.motion.clone());
-        last.emit(end, plane, distance, out)?;
-        emit_between(between, end, plane, out);
-        let Some(template) = template else { return Ok(active(end, motion)) };
-        let start = if by_lines {
+        let extended = matches!(self.last.side, Side::Line { .. })
+            && matches!(self.last.course, Course::Parallel | Course::Corner);
+        let end = if extended { points[0] } else { before };
+        let template = self.last.motion.clone();
+        self.last.emit(end, plane, distance, out)?;
+        emit_between(self.between, end, plane, out);
+        let start = if stretch.is_some() {
             if !matches!(side, Side::Line { .. }) {
                 points.push(after);
             }
@@ -151,7 +179,7 @@ impl Active {
             out.extend(corner_arc(&template, &motion, plane, corner, before, after, distance));
             after
         };
-        Ok(active(start, motion))
+        Ok(Self { last: Element::parallel(motion, side, start), between: Vec::new(), ..self })
     }
 
     /// The contour runs back along itself and changes its side: the tool reverses at its current position.

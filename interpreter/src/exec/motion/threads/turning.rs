@@ -155,22 +155,26 @@ impl Decoder {
         let unit_mm = self.modal.unit_mm();
         self.motion.threads.join(&cut, self.machine.cycle, unit_mm, &mut self.report)?;
         if !self.motion.threads.cutting {
-            let rpm = self.motion.spindles[0].rpm;
-            let text = self.motion.begins_elsewhere(&block.path, rpm, &self.machine, &self.shaping);
-            if let Some(text) = text {
-                let fault = Fault::new(Condition::UnequalKernels, text, span);
-                self.report.note_once(Subject::Only, fault);
-            }
             let deg = offset.map_or(0.0, |(_, deg, _)| *deg);
-            let settled = block.tolerance.ax_dev_mm.is_some();
-            let full_override = block.full_override;
-            let state = SpindleState::Mark { deg, full_override, settled };
-            self.contour.continue_along(&block.path);
-            self.sync(Sync::Spindle { spindle: index, state });
-            self.motion.threads.cutting = true;
+            self.begin_thread(&block, index, deg, span);
         }
         self.send(block, plane, None, span);
         Ok(())
+    }
+
+    /// The path waits for the spindle at its start angle in deg.
+    fn begin_thread(&mut self, block: &Block, spindle: usize, deg: f64, span: Span) {
+        let rpm = self.motion.spindles[0].rpm;
+        let text = self.motion.begins_elsewhere(&block.path, rpm, &self.machine, &self.shaping);
+        if let Some(text) = text {
+            let fault = Fault::new(Condition::UnequalKernels, text, span);
+            self.report.note_once(Subject::Only, fault);
+        }
+        let settled = block.tolerance.ax_dev_mm.is_some();
+        let state = SpindleState::Mark { deg, full_override: block.full_override, settled };
+        self.contour.continue_along(&block.path);
+        self.sync(Sync::Spindle { spindle, state });
+        self.motion.threads.cutting = true;
     }
 }
 

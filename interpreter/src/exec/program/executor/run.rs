@@ -72,19 +72,7 @@ impl Executor {
         }
         self.enter(file, at, next);
         match fetched {
-            Fetched::Plain => {
-                let plain = self.files.plain();
-                let number = plain.frame.number;
-                let words = match plain.frame.skip {
-                    None => StraightWords::read(&self.decoder, plain),
-                    Some(_) => None,
-                };
-                self.source_of(file, at, number);
-                match words {
-                    Some(words) => self.decoder.straight_motion(&words, None, None),
-                    None => self.execute(&self.files.plain().tree(), entry),
-                }
-            }
+            Fetched::Plain => self.execute_plain(file, at, entry),
             Fetched::Tree(tree) => {
                 let number = self.block_number(&tree.block);
                 self.source_of(file, at, number);
@@ -99,6 +87,21 @@ impl Executor {
             self.decoder.sync(Sync::Halt);
         }
         self.settle(faulty);
+    }
+
+    /// Executes a block that was read without a tree.
+    fn execute_plain(&mut self, file: usize, at: Position, entry: Option<EntryId>) {
+        let plain = self.files.plain();
+        let number = plain.frame.number;
+        let words = match plain.frame.skip {
+            None => StraightWords::read(&self.decoder, plain),
+            Some(_) => None,
+        };
+        self.source_of(file, at, number);
+        match words {
+            Some(words) => self.decoder.straight_motion(&words, None, None),
+            None => self.execute(&self.files.plain().tree(), entry),
+        }
     }
 
     /// Makes the block between `at` and `next` the current one.

@@ -280,43 +280,44 @@ impl Builder<'_> {
                 self.conditional_open.push(id);
                 self.nested(raw, head, self.conditional_open.len(), Condition::ConditionalNesting);
             }
-            "ELSE" | "ENDIF" => {
-                let Some(open) = self.conditional_open.last().copied() else {
-                    let d = Diagnostic::new(Condition::Syntax, format!("#{name} without #IF"))
-                        .hint("write #IF before it, or remove it");
-                    self.report(raw, head.at, name.len() + 1, d);
-                    return;
-                };
-                let keyword =
-                    if name == "ELSE" { Keyword::ConditionalElse } else { Keyword::ConditionalEnd };
-                let said = if !is_end(split_word(text).1) {
-                    let text = format!("{} is not alone in its block", keyword.text());
-                    Some((text, "move the words to the next block"))
-                } else if keyword == Keyword::ConditionalElse
-                    && self.last_clause.contains_key(&open)
-                {
-                    let text = "a second #ELSE of the same #IF: its blocks never run".to_owned();
-                    Some((text, "remove it, or write #ENDIF and a further #IF before it"))
-                } else {
-                    None
-                };
-                if let Some((text, hint)) = said {
-                    let d = Diagnostic::new(Condition::Syntax, text).hint(hint);
-                    self.report(raw, head.at, head.rest.trim_end().len(), d);
-                }
-                let id = self.push(raw.position, head.at, keyword);
-                self.index.entries.change(id, |e| e.open = Some(open));
-                self.chain(open, id);
-                if keyword == Keyword::ConditionalEnd {
-                    self.finish(open, id);
-                    self.conditional_open.pop();
-                    self.conditional.pop();
-                } else if let Some(stack) = self.conditional.last() {
-                    // the branches are siblings
-                    self.stack.clone_from(stack);
-                }
-            }
+            "ELSE" | "ENDIF" => self.else_or_end(raw, head, &name, text),
             _ => {}
+        }
+    }
+
+    /// `#ELSE` or `#ENDIF`, by its name, with the text of the block.
+    fn else_or_end(&mut self, raw: &RawBlock<'_>, head: &Head<'_>, name: &str, text: &str) {
+        let Some(open) = self.conditional_open.last().copied() else {
+            let d = Diagnostic::new(Condition::Syntax, format!("#{name} without #IF"))
+                .hint("write #IF before it, or remove it");
+            self.report(raw, head.at, name.len() + 1, d);
+            return;
+        };
+        let keyword =
+            if name == "ELSE" { Keyword::ConditionalElse } else { Keyword::ConditionalEnd };
+        let said = if !is_end(split_word(text).1) {
+            let text = format!("{} is not alone in its block", keyword.text());
+            Some((text, "move the words to the next block"))
+        } else if keyword == Keyword::ConditionalElse && self.last_clause.contains_key(&open) {
+            let text = "a second #ELSE of the same #IF: its blocks never run".to_owned();
+            Some((text, "remove it, or write #ENDIF and a further #IF before it"))
+        } else {
+            None
+        };
+        if let Some((text, hint)) = said {
+            let d = Diagnostic::new(Condition::Syntax, text).hint(hint);
+            self.report(raw, head.at, head.rest.trim_end().len(), d);
+        }
+        let id = self.push(raw.position, head.at, keyword);
+        self.index.entries.change(id, |e| e.open = Some(open));
+        self.chain(open, id);
+        if keyword == Keyword::ConditionalEnd {
+            self.finish(open, id);
+            self.conditional_open.pop();
+            self.conditional.pop();
+        } else if let Some(stack) = self.conditional.last() {
+            // the branches are siblings
+            self.stack.clone_from(stack);
         }
     }
 
