@@ -11,6 +11,7 @@ mod axes;
 mod banding;
 mod batch;
 mod chain;
+mod chains;
 mod driver;
 mod fault;
 mod independent;
@@ -92,7 +93,7 @@ impl Simulation {
 
     /// Path axes, then spindles.
     pub(crate) fn chains(&self) -> &[AxisChain] {
-        &self.chains
+        &self.chains.all
     }
 
     /// Messages since the last call, if there are any.
@@ -186,8 +187,8 @@ impl Simulation {
                     let set_rests = self.planner.brake_is_over()
                         && !self.independent.any_moving()
                         && self.spindles.iter().all(Spindle::rests)
-                        && self.chains.iter().all(AxisChain::settled);
-                    let axes_stand = self.chains.iter().all(AxisChain::is_at_rest);
+                        && self.chains.all.iter().all(AxisChain::settled);
+                    let axes_stand = self.chains.all.iter().all(AxisChain::is_at_rest);
                     if stopping.is_over(set_rests, axes_stand, self.cycle) {
                         self.phase = Phase::Done;
                         return false;
@@ -213,7 +214,6 @@ impl Simulation {
         let k = self.planner.setpoint().k;
         let parts = Parts {
             chains: &self.chains,
-            drivers: &self.drivers,
             spindles: &self.spindles,
             independent: &self.independent,
             cycle: self.cycle,

@@ -1,6 +1,7 @@
 //! Effects of the events of a block on the running machine: kernels, feedforward, machine data.
 
 use super::chain::AxisChain;
+use super::chains::Chains;
 use super::driver::Driver;
 use super::messages::MESSAGES_MAX;
 use super::state::Simulation;
@@ -41,7 +42,7 @@ impl Simulation {
             Event::Engaged(engaged) => self.wear.engage(engaged),
             Event::Feedforward { on, weight_ratios } => self.feedforward(on, &weight_ratios),
             Event::SpindleFeedforward { spindle, on, weight_ratio } => {
-                self.spindle_feedforward(spindle, on, weight_ratio);
+                self.chains.spindle_feedforward(spindle, on, weight_ratio);
             }
             Event::SoftwareLimits { axis, limits_mm } => self.limit_axis(axis, limits_mm),
             Event::Timer { id, act } => {
@@ -112,11 +113,12 @@ impl Simulation {
 
     pub(super) fn feedforward(&mut self, on: bool, weights: &[f64]) {
         let mut largest: Option<(usize, f64)> = None;
-        for (i, chain) in self.chains.iter().enumerate() {
-            if let Driver::Path(p) = self.drivers[i] {
+        let Chains { all, drivers, gains, .. } = &mut self.chains;
+        for (i, chain) in all.iter().enumerate() {
+            if let Driver::Path(p) = drivers[i] {
                 let weight = weights.get(p).copied().unwrap_or(1.0);
                 let gain = chain.feedforward_gain(on, weight);
-                let step = std::mem::replace(&mut self.gains[i], gain) - gain;
+                let step = std::mem::replace(&mut gains[i], gain) - gain;
                 // the record is that of the previous cycle, whose speed may come from a last step
                 let jump = |(i, step): (usize, f64)| (step * self.record.axes[i].vel).abs();
                 let moves = self.record.path.v_mm_s > 0.0
@@ -132,35 +134,27 @@ impl Simulation {
         }
     }
 
-    pub(super) fn spindle_feedforward(&mut self, spindle: usize, on: bool, weight: f64) {
-        for (i, chain) in self.chains.iter().enumerate() {
-            if self.drivers[i] == Driver::Spindle(spindle) {
-                self.gains[i] = chain.feedforward_gain(on, weight);
-            }
-        }
-    }
-
     /// Replaces the kernels of the path axes and their gantry slaves, which must be flushed. Those of spindles never
     /// change.
     pub(super) fn swap_kernels(&mut self, setup: &ShapingSetup) {
         for i in 0..self.chains.len() {
-            if !matches!(self.drivers[i], Driver::Spindle(_)) {
+            if !matches!(self.chains.drivers[i], Driver::Spindle(_)) {
                 self.set_kernel(i, setup);
             }
         }
         let kernels = Kernels::new(setup.axes.iter().map(|a| a.kernel.clone()).collect());
-        let path = &self.chains[..self.path_axes()];
+        let path = &self.chains.all[..self.path_axes()];
         let reach = path.iter().map(AxisChain::reach_cycles).max().unwrap_or(0);
         self.planner.set_kernels(kernels, reach);
         self.totals.shaped(setup);
-        for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains) {
+        for (delay, chain) in self.totals.filter_delay_cycles.iter_mut().zip(&self.chains.all) {
             *delay = delay.max(chain.delay_cycles());
         }
     }
 
     /// Sets the kernel of a setup in a chain at rest.
     pub(super) fn set_kernel(&mut self, i: usize, setup: &ShapingSetup) {
-        if self.chains[i].set_kernel(self.drivers[i].kernel(setup).cloned()).is_err() {
+        if !self.chains.set_kernel(i, setup) {
             self.messages.own.push(super::fault::switch_while_moving());
         }
     }
@@ -184,11 +178,11 @@ impl Simulation {
     /// Replaces the chain of an axis, at the position of the axis and with the active kernel; `shifted`: to another gear
     /// stage.
     fn replace(&mut self, i: usize, old: &ChainSetup, new: &ChainSetup, shifted: bool) {
-        let before = &self.chains[i];
+        let before = &self.chains.all[i];
         match AxisChain::new(new.clone(), before.set_mm(), self.inputs.axes[i], self.cycle) {
             Ok(mut chain) => {
                 chain.take_over(before, old, new);
-                self.chains[i] = chain;
+                self.chains.all[i] = chain;
                 // a gear stage changes in position, or at the standstill of a spindle
                 if !shifted {
                     self.control_changed(i, &old.control, &new.control);
@@ -215,9 +209,9 @@ impl Simulation {
     /// Assumption: limits of the program hold for the gantry slaves of the axis as well, whose set positions are the same.
     fn limit_axis(&mut self, axis: usize, limits_mm: Option<(f64, f64)>) {
         let listed = self.machine.axes[axis].software_limits_mm() == limits_mm;
-        let sides = self.machine.all_axes().zip(&mut self.chains).zip(&self.drivers).enumerate();
-        for (i, ((side, chain), driver)) in sides {
-            if *driver == Driver::Path(axis) {
+        let sides = self.machine.all_axes().zip(self.chains.driven()).enumerate();
+        for (i, (side, (chain, driver))) in sides {
+            if driver == Driver::Path(axis) {
                 let own = listed && i != axis;
                 let limits_mm = if own { side.software_limits_mm() } else { limits_mm };
                 chain.limit_range(limits_mm.map(|limits_mm| side.actual_range_mm(limits_mm)));
@@ -227,11 +221,7 @@ impl Simulation {
 
     /// Gives the axis and its gantry slaves new set positions. Those of the path do not change.
     pub(super) fn set_position(&mut self, axis: usize, offset_mm: f64, moves: bool) {
-        for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
-            if *driver == Driver::Path(axis) {
-                chain.shift(offset_mm, moves);
-            }
-        }
+        self.chains.of_axis(axis).for_each(|chain| chain.shift(offset_mm, moves));
         self.independent.shift(axis, offset_mm);
         self.path_position[axis] += offset_mm;
     }

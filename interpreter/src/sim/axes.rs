@@ -30,7 +30,7 @@ impl Simulation {
                 self.time_begins(block.time_s, block.source, k.saturating_sub(1));
                 (self.blocks.current, self.blocks.left) = (block.source, false);
                 self.motion = block.motion;
-                for (target, driver) in self.targets.iter_mut().zip(&self.drivers) {
+                for (target, driver) in self.targets.iter_mut().zip(&self.chains.drivers) {
                     if let Driver::Path(p) = driver {
                         *target = block.target[*p] + self.independent.done_mm(*p);
                     }
@@ -73,9 +73,9 @@ impl Simulation {
             let limit = |axis: usize| axes[axis].dynamics().a_max_mm_s2;
             let t = self.cycle.seconds();
             self.wear.step((&self.path_position, &positions), ds, limit, t);
-            for (chain, driver) in self.chains.iter_mut().zip(&self.drivers) {
+            for (chain, driver) in self.chains.driven() {
                 if let Driver::Path(p) = driver {
-                    chain.set_wear(self.wear.offset_mm(*p));
+                    chain.set_wear(self.wear.offset_mm(p));
                 }
             }
         }
@@ -83,8 +83,8 @@ impl Simulation {
         if alone {
             self.expect_independent_stops();
         }
-        for (i, chain) in self.chains.iter_mut().enumerate() {
-            if let Driver::Spindle(s) = self.drivers[i]
+        for (i, (chain, driver)) in self.chains.driven().enumerate() {
+            if let Driver::Spindle(s) = driver
                 && let Some(target_deg) = self.spindles[s].take_target()
             {
                 chain.expect_stop(target_deg);
@@ -104,8 +104,8 @@ impl Simulation {
             if matches!(self.phase, Phase::Stopping(_)) {
                 continue;
             }
-            for (i, chain) in self.chains.iter_mut().enumerate() {
-                if self.drivers[i] == Driver::Path(axis) {
+            for (i, (chain, driver)) in self.chains.driven().enumerate() {
+                if driver == Driver::Path(axis) {
                     chain.expect_stop(self.path_position[axis]);
                     self.blocks.stops_at[i] = source;
                 }
@@ -175,7 +175,6 @@ impl Simulation {
     /// The spindle that follows the path, by its index in the record.
     fn tapping_spindle(&self) -> Option<u8> {
         let spindle = self.spindles.iter().position(Spindle::follows)?;
-        let place = self.drivers.iter().position(|d| *d == Driver::Spindle(spindle))?;
-        u8::try_from(place).ok()
+        u8::try_from(self.chains.of_spindle(spindle)?).ok()
     }
 }

@@ -14,7 +14,6 @@
 //! stops.
 
 use super::SettledStop;
-use super::chain::AxisChain;
 use super::driver::Driver;
 use super::out::Samples;
 use super::spindle::Spindle;
@@ -101,11 +100,7 @@ impl Simulation {
     /// Whether nothing acts on the axes or depends on them, apart from events of the next cycles.
     fn is_left_alone(&self) -> bool {
         let turns = |spindle: &Spindle| spindle.turns_freely();
-        let runs = |(chain, driver): (&AxisChain, &Driver)| {
-            !chain.goes_alone() && *driver != Driver::Standing
-        };
         matches!(self.phase, Phase::Running)
-            && self.frozen.iter().all(Option::is_none)
             && !self.is_held
             && self.thread.is_none()
             && self.probing.is_none()
@@ -113,7 +108,7 @@ impl Simulation {
             && self.independent.is_unused()
             && self.wear.is_unused()
             && self.spindles.iter().all(turns)
-            && self.chains.iter().zip(&self.drivers).all(runs)
+            && self.chains.run_freely()
     }
 
     /// Runs every chain through this cycle and up to `most` further ones; their columns go to `rows`, unless nobody
@@ -131,19 +126,19 @@ impl Simulation {
         let mut faulty = false;
         for i in 0..self.chains.len() {
             if count > 1 {
-                self.chains[i].mark(&mut self.batch.marks[i]);
+                self.chains.all[i].mark(&mut self.batch.marks[i]);
             }
-            let settles = self.chains[i].settles();
+            let settles = self.chains.all[i].settles();
             let done = self.run_chain(i, count, rows.as_deref_mut());
-            faulty |= self.chains[i].faults().is_some();
-            if settles && self.chains[i].arrived() && self.chains[i].faults().is_none() {
+            faulty |= self.chains.all[i].faults().is_some();
+            if settles && self.chains.all[i].arrived() && self.chains.all[i].faults().is_none() {
                 self.settled(i);
             }
             if done < count {
                 (count, self.batch.tried) = (done, 0);
                 for other in 0..=i {
                     if let Some(mark) = &self.batch.marks[other] {
-                        self.chains[other].return_to(mark);
+                        self.chains.all[other].return_to(mark);
                     }
                     self.record.axes[other] = self.batch.records_before[other];
                     self.run_chain(other, count, rows.as_deref_mut());
@@ -153,7 +148,7 @@ impl Simulation {
             }
         }
         if faulty {
-            for (i, chain) in self.chains.iter().enumerate() {
+            for (i, chain) in self.chains.all.iter().enumerate() {
                 let found = chain.faults().into_iter().flat_map(Faults::iter);
                 self.batch.faults.extend(found.map(|f| (i, *f)));
             }
@@ -170,22 +165,24 @@ impl Simulation {
 
     /// Runs one chain through this cycle and the following computed ones, up to `count` cycles; returns their number.
     fn run_chain(&mut self, i: usize, count: usize, rows: Option<&mut RowBuffer>) -> usize {
-        let (chain, record) = (&mut self.chains[i], &mut self.record.axes[i]);
+        let (frozen, driver, gain) =
+            (self.chains.frozen(i), self.chains.drivers[i], self.chains.gains[i]);
+        let (chain, record) = (&mut self.chains.all[i], &mut self.record.axes[i]);
         let mut columns = rows.map_or(AxisColumns::none(), |rows| rows.axis_mut(i));
         if count == 1 {
-            let ipo = match (self.frozen[i], self.drivers[i]) {
+            let ipo = match (frozen, driver) {
                 (Some(x), _) => x,
                 (None, Driver::Path(p)) => self.path_position[p],
                 (None, Driver::Spindle(s)) => self.batch.spindle_deg[s][0],
                 (None, Driver::Standing) => chain.set_mm(),
             };
-            chain.step(ipo, self.gains[i], self.jerk_limited, record);
+            chain.step(ipo, gain, self.jerk_limited, record);
             columns.fill(record, 1);
             return 1;
         }
         let ipo = &mut self.batch.ipo;
         ipo.clear();
-        match self.drivers[i] {
+        match driver {
             Driver::Path(p) => {
                 ipo.push(self.path_position[p]);
                 let ahead = &self.batch.ahead.positions(p)[..count - 1];
@@ -197,7 +194,7 @@ impl Simulation {
             Driver::Standing => {}
         }
         let set = &mut self.batch.set;
-        chain.run(ipo, self.gains[i], self.jerk_limited, set, record, columns)
+        chain.run(ipo, gain, self.jerk_limited, set, record, columns)
     }
 
     /// Turns the spindles through the following cycles, up to `count` cycles.

@@ -162,7 +162,7 @@ impl Simulation {
         let last = into.values.len() - 2 * n;
         let (set, path) = into.values[last..].split_at_mut(n);
         for (p, (set, path)) in set.iter_mut().zip(path).enumerate() {
-            if self.independent.is_on_its_way(p, self.chains[p].settled()) {
+            if self.independent.is_on_its_way(p, self.chains.all[p].settled()) {
                 *set = *path;
             } else {
                 *set -= self.independent.done_mm(p);

@@ -5,7 +5,6 @@
 //! path with P-AXIS-00003. The run continues until the axes are at rest.
 
 use super::chain::Remaining;
-use super::driver::Driver;
 use super::fault::internal;
 use super::fault::text::{condition, order, per_s, text, thresholds};
 use super::state::{Phase, Simulation, Stopping};
@@ -23,7 +22,7 @@ impl Simulation {
         // the abrupt end of a set position is the effect of a reaction
         let of_set_position =
             matches!(fault, Fault::SetpointWarning { .. } | Fault::SetpointError { .. });
-        if self.frozen[chain].is_some() && of_set_position {
+        if self.chains.frozen(chain).is_some() && of_set_position {
             return;
         }
         let condition = condition(fault, self.is_spindle(chain));
@@ -42,7 +41,7 @@ impl Simulation {
         self.react(chain, reaction);
         if matches!(fault, Fault::Swings { .. }) {
             // with its loop closed the axis never comes to rest
-            self.chains[chain].open_loop();
+            self.chains.all[chain].open_loop();
         }
         self.stop(vec![(chain, condition)]);
     }
@@ -68,38 +67,14 @@ impl Simulation {
     /// Both sides of a gantry bridge stop alike: held where they are once their set position is at rest, braked with
     /// the limits of the path while it moves. Stopping only one of them would rack the bridge.
     fn react(&mut self, chain: usize, reaction: Reaction) {
-        let driver = self.drivers[chain];
-        let together =
-            |i: usize| i == chain || matches!(driver, Driver::Path(_)) && self.drivers[i] == driver;
-        let concerned: Vec<usize> = match reaction {
-            Reaction::AbruptStop | Reaction::OpenLoopStop => {
-                (0..self.chains.len()).filter(|i| together(*i)).collect()
-            }
-            Reaction::AllStop => (0..self.chains.len()).collect(),
-            // the path brakes; there is no other reaction of the axis
-            Reaction::None
-            | Reaction::ProgramAbort
-            | Reaction::JobAbort
-            | Reaction::FeedHold
-            | Reaction::ControlledStop => return,
-        };
+        let concerned = self.chains.stopped_with(chain, reaction);
         let bridge = reaction != Reaction::AllStop && concerned.len() > 1;
         if bridge && self.record.path.v_mm_s > 0.0 {
             return;
         }
         for i in concerned {
             let here = self.record.axes[i].ipo;
-            self.frozen[i].get_or_insert(here);
-            match reaction {
-                Reaction::OpenLoopStop => self.chains[i].open_loop(),
-                Reaction::AbruptStop => self.chains[i].halt(),
-                Reaction::None
-                | Reaction::ProgramAbort
-                | Reaction::JobAbort
-                | Reaction::FeedHold
-                | Reaction::ControlledStop
-                | Reaction::AllStop => {}
-            }
+            self.chains.freeze(i, here, reaction);
         }
     }
 

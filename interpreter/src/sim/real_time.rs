@@ -17,7 +17,7 @@ impl Simulation {
             Ok(true) => {}
             Err(failure) => self.input_fails(*failure),
         }
-        for (chain, inputs) in self.chains.iter_mut().zip(&self.inputs.axes) {
+        for (chain, inputs) in self.chains.all.iter_mut().zip(&self.inputs.axes) {
             chain.set_inputs(*inputs);
         }
         self.steer_independent();

@@ -1,7 +1,8 @@
 //! A simulation before its first cycle: every axis at rest where the program starts.
 
 use super::chain::AxisChain;
-use super::driver::{Driver, drivers};
+use super::chains::Chains;
+use super::driver::Driver;
 use super::fault;
 use super::independent::IndependentAxes;
 use super::inputs::Inputs;
@@ -14,7 +15,7 @@ use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use crate::diag::Diagnostic;
 use crate::exec::{Options, Structures};
-use crate::machine::{ChainSetup, Machine};
+use crate::machine::Machine;
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
@@ -39,30 +40,26 @@ impl Simulation {
         let on = Arc::clone(&machine);
         let (program, start, found) = Program::new(sources, program, on, options, structures);
         let n = machine.axes.len();
-        let drivers = drivers(&machine);
-        let chains = chains_at(&start, setups, &drivers, &machine)?;
+        let chains = Chains::new(&start, setups, &machine)?;
         let window = machine.channel.look_ahead_blocks as usize;
         let spindles: Vec<_> = machine
             .spindles
             .iter()
             .map(|a| Spindle::new(&a.dynamics()).within(a.speed_band()))
             .collect();
-        let records = chains.iter().map(AxisChain::at_start).collect();
+        let records = chains.all.iter().map(AxisChain::at_start).collect();
         let mut simulation = Self {
             smoothing: Smoothing::new(cycle),
             planner: Planner::new(cycle, window, &start[..n]),
-            gains: vec![0.0; chains.len()],
             targets: vec![0.0; chains.len()],
             batch: Batch::default(),
             totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
-            frozen: vec![None; chains.len()],
             motion: Motion::None,
             is_held: false,
             blocks: BlockRefs::none(chains.len()),
             inputs: Inputs::none(chains.len()),
             independent: IndependentAxes::new(n),
             chains,
-            drivers,
             spindle_deg: vec![0.0; spindles.len()],
             spindles,
             jerk_limited: false,
@@ -93,11 +90,11 @@ impl Simulation {
         self.planner.set_override_mode(mode);
         self.feedforward(false, &vec![1.0; self.path_axes()]);
         for spindle in 0..self.spindles.len() {
-            self.spindle_feedforward(spindle, false, 1.0);
+            self.chains.spindle_feedforward(spindle, false, 1.0);
         }
         let setup = self.program.shaping().clone();
         for i in 0..self.chains.len() {
-            if matches!(self.drivers[i], Driver::Spindle(_)) {
+            if matches!(self.chains.drivers[i], Driver::Spindle(_)) {
                 self.set_kernel(i, &setup);
             }
         }
@@ -114,22 +111,4 @@ pub(crate) fn impossible_axes(machine: &Machine) -> Vec<Diagnostic> {
         chain.err().map(|e| fault::plant(&e, machine, i))
     };
     chains.filter_map(error).collect()
-}
-
-/// The chain of every axis, at the position where its driver starts.
-fn chains_at(
-    start: &[f64],
-    setups: Vec<ChainSetup>,
-    drivers: &[Driver],
-    machine: &Machine,
-) -> Result<Vec<AxisChain>, Vec<Diagnostic>> {
-    let chain = |(i, setup): (usize, _)| {
-        let x = match drivers.get(i) {
-            Some(Driver::Path(p)) => start.get(*p).copied().unwrap_or(0.0),
-            _ => 0.0,
-        };
-        let chain = AxisChain::new(setup, x, AxisInputs::default(), machine.cycle);
-        chain.map_err(|e| vec![fault::plant(&e, machine, i)])
-    };
-    setups.into_iter().enumerate().map(chain).collect()
 }

@@ -5,8 +5,7 @@ mod probe;
 mod stopping;
 mod times;
 
-use super::chain::AxisChain;
-use super::driver::Driver;
+use super::chains::Chains;
 use super::independent::IndependentAxes;
 use super::inputs::Inputs;
 use super::messages::Messages;
@@ -150,16 +149,12 @@ pub(crate) struct Simulation {
     pub(in crate::sim) program: Program,
     pub(in crate::sim) smoothing: Smoothing,
     pub(in crate::sim) planner: Planner,
-    /// Path axes, spindles, gantry slaves.
-    pub(in crate::sim) chains: Vec<AxisChain>,
-    pub(in crate::sim) drivers: Vec<Driver>,
+    pub(in crate::sim) chains: Chains,
     pub(in crate::sim) spindles: Vec<Spindle>,
     /// Setpoint of every spindle in this cycle, in deg.
     pub(in crate::sim) spindle_deg: Vec<f64>,
     pub(in crate::sim) inputs: Inputs,
     pub(in crate::sim) independent: IndependentAxes,
-    /// Feedforward gain of every chain.
-    pub(in crate::sim) gains: Vec<f64>,
     pub(in crate::sim) queue: Queue,
     pub(in crate::sim) blocks: BlockRefs,
     pub(in crate::sim) motion: Motion,
@@ -187,8 +182,6 @@ pub(crate) struct Simulation {
     /// `#OTC`.
     pub(in crate::sim) wear: Wear,
     pub(in crate::sim) limit: TimeLimit,
-    /// Position at which a fault has stopped each axis.
-    pub(in crate::sim) frozen: Vec<Option<f64>>,
     pub(in crate::sim) messages: Messages,
     pub(in crate::sim) progress: Progress,
     pub(in crate::sim) totals: Totals,

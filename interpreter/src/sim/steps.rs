@@ -151,8 +151,8 @@ impl Simulation {
 
     /// Expects the axes at the rest position of the path.
     pub(super) fn expect_stops(&mut self) {
-        for (i, chain) in self.chains.iter_mut().enumerate() {
-            if let Driver::Path(p) = self.drivers[i]
+        for (i, (chain, driver)) in self.chains.driven().enumerate() {
+            if let Driver::Path(p) = driver
                 && !self.independent.is_moving(p)
             {
                 let way_mm = self.independent.done_mm(p);

@@ -1,6 +1,7 @@
 //! Waits of the machine while the path is at rest, and what follows them.
 
 use super::chain::{AxisChain, Remaining};
+use super::chains::Chains;
 use super::driver::Driver;
 use super::independent::IndependentAxes;
 use super::patience::Patience;
@@ -56,9 +57,7 @@ enum Until {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts<'a> {
     /// Path axes, spindles, gantry slaves.
-    pub(super) chains: &'a [AxisChain],
-    /// Their drivers.
-    pub(super) drivers: &'a [Driver],
+    pub(super) chains: &'a Chains,
     /// Spindles of the machine.
     pub(super) spindles: &'a [Spindle],
     /// Independent axes.
@@ -70,9 +69,8 @@ pub(super) struct Parts<'a> {
 impl Parts<'_> {
     /// Actual speed of a spindle in deg/s.
     fn speed_of(&self, spindle: usize) -> f64 {
-        let mut chains = self.chains.iter().zip(self.drivers);
-        let is = |driver: &Driver| matches!(driver, Driver::Spindle(s) if *s == spindle);
-        chains.find(|(_, driver)| is(driver)).map_or(0.0, |(chain, _)| chain.actual_speed())
+        let chain = self.chains.of_spindle(spindle);
+        chain.map_or(0.0, |i| self.chains.all[i].actual_speed())
     }
 }
 
@@ -188,7 +186,7 @@ impl Wait {
             (Until::Now | Until::Cycles(..) | Until::Spindle(..), Driver::Path(_))
             | (_, Driver::Spindle(_) | Driver::Standing) => false,
         };
-        let chains = parts.chains.iter().zip(parts.drivers).enumerate();
+        let chains = parts.chains.all.iter().zip(&parts.chains.drivers).enumerate();
         chains.filter(move |(_, (_, driver))| concerns(**driver)).map(|(i, (chain, _))| (i, chain))
     }
 
@@ -235,7 +233,7 @@ impl Wait {
     pub(super) fn is_over(&self, parts: Parts<'_>) -> bool {
         let ready = |i: usize, chain: &AxisChain| match &self.action {
             Action::Shaping(setup) => {
-                chain.ready_for(parts.drivers[i].kernel(setup).map(AsRef::as_ref))
+                chain.ready_for(parts.chains.drivers[i].kernel(setup).map(AsRef::as_ref))
             }
             Action::None
             | Action::MachineData
@@ -266,7 +264,7 @@ impl Wait {
         }
         let lacks = self.awaited(parts).filter_map(|(i, c)| Some((i, self.remaining(c)?)));
         let (i, worst) = lacks.max_by(|(_, a), (_, b)| a.excess_mm().total_cmp(&b.excess_mm()))?;
-        let settling_s = parts.chains[i].settling_limit_s();
+        let settling_s = parts.chains.all[i].settling_limit_s();
         self.patience.is_over(worst.distance_mm, settling_s, cycle).then_some((i, worst))
     }
 
