@@ -119,7 +119,7 @@ impl Executor {
     }
 
     fn open_called(&mut self, path: &str, caller: Option<usize>, span: Span) -> Option<usize> {
-        match self.files.open(&*self.sources, path, caller, self.skip, &self.parser) {
+        match self.files.open(path, caller, &self.parser) {
             Ok((file, diagnostics)) => {
                 for diagnostic in diagnostics {
                     self.report(diagnostic);
@@ -147,14 +147,10 @@ impl Executor {
     /// file.
     pub(super) fn search_file(&mut self) {
         let Some((name, span)) = self.decoder.calls.searched.wanted.take() else { return };
-        let caller = self.levels.last().map(|level| Arc::clone(&self.files.file(level.file).name));
-        let found = self.sources.open(&name.replace('\\', "/"), caller.as_deref());
+        let caller = self.levels.last().map(|level| level.file);
+        let found = self.files.search(&name.replace('\\', "/"), caller);
         self.decoder.calls.searched.found = match found {
-            Ok(source) => {
-                let (path, caller) = (source.name(), caller.unwrap_or_default());
-                let folder = caller.rfind(['/', '\\']).map_or("", |last| &caller[..=last]);
-                Some(path.strip_prefix(folder).unwrap_or(&path).replace('/', "\\").into())
-            }
+            Ok(path) => Some(path.replace('/', "\\").into()),
             Err(error) => {
                 let text = format!("#FILE EXIST: {name} does not exist ({})", error.reason);
                 let note = Fault::new(Condition::Odd, text, span);

@@ -15,7 +15,7 @@ use super::reached::Reached;
 use super::state::{Sequences, Target};
 use crate::diag::{Condition, Diagnostic, Location, Severity};
 use crate::exec::decoder::Decoder;
-use crate::exec::options::{GuardCommands, Options, SkipLevels};
+use crate::exec::options::{GuardCommands, Options};
 use crate::exec::step::{
     Decoded, EndReason, Opened, Rare, ShapingSetup, SourceRef, Step, Sync, Told,
 };
@@ -48,13 +48,11 @@ pub(in crate::exec) enum Mode {
 /// Runs one program and returns its steps.
 pub(crate) struct Executor {
     pub(in crate::exec::program) decoder: Decoder,
-    pub(in crate::exec::program) sources: Arc<dyn Sources>,
     pub(in crate::exec::program) parser: Parser,
     pub(in crate::exec::program) files: Files,
     pub(in crate::exec::program) levels: Levels,
     /// Block numbers for `L SEQUENCE`.
     pub(in crate::exec::program) sequences: Sequences,
-    pub(in crate::exec::program) skip: SkipLevels,
     state: State,
     start: AxisVec,
     pub(super) found: Found,
@@ -117,11 +115,9 @@ impl Executor {
         let mut executor = Self {
             parser: Parser::new(names.iter().map(String::as_str)),
             decoder,
-            sources,
-            files: Files::new(asynchronous, structures),
+            files: Files::new(sources, skip, asynchronous, structures),
             levels: Levels::default(),
             sequences: Sequences::default(),
-            skip,
             state: State::Running,
             start,
             found: Found::default(),
@@ -193,7 +189,7 @@ impl Executor {
 
     /// Opens a file; reports problems.
     pub(in crate::exec) fn open(&mut self, name: &str, caller: Option<usize>) -> Option<usize> {
-        match self.files.open(&*self.sources, name, caller, self.skip, &self.parser) {
+        match self.files.open(name, caller, &self.parser) {
             Ok((file, diagnostics)) => {
                 for diagnostic in diagnostics {
                     self.report(diagnostic);

@@ -9,7 +9,7 @@ use crate::diag::{Condition, Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::step::Opened;
 use crate::exec::values::variables::external;
-use crate::source::{BlockReader, Position, RawBlock, Sources};
+use crate::source::{BlockReader, OpenError, Position, RawBlock, Sources};
 use crate::syntax::ast::{Block, LabelKind, Span};
 use crate::syntax::macros;
 use crate::syntax::{Parser, Plain, PlainFrame, PlainWord};
@@ -100,8 +100,10 @@ pub(in crate::exec) enum Look {
 }
 
 /// All files of a run.
-#[derive(Debug)]
 pub(in crate::exec) struct Files {
+    sources: Arc<dyn Sources>,
+    /// Levels whose blocks are skipped (`/`).
+    skip: SkipLevels,
     open: Vec<ProgramFile>,
     names: Vec<Arc<str>>,
     /// Those that have not been taken by [`Self::take_opened`].
@@ -118,8 +120,15 @@ pub(in crate::exec) struct Files {
 
 impl Files {
     /// No files yet; `structures`: those that an earlier pass over the same texts has found.
-    pub(in crate::exec) fn new(asynchronous: external::Names, structures: Structures) -> Self {
+    pub(in crate::exec) fn new(
+        sources: Arc<dyn Sources>,
+        skip: SkipLevels,
+        asynchronous: external::Names,
+        structures: Structures,
+    ) -> Self {
         Self {
+            sources,
+            skip,
             open: Vec::new(),
             names: Vec::new(),
             opened: Vec::new(),
@@ -164,13 +173,33 @@ impl Files {
         &self.open[file]
     }
 
+    /// Whether a block is skipped (`/`).
+    pub(in crate::exec::program) fn skips(&self, block: &Block) -> bool {
+        block.skip.is_some_and(|level| self.skip.contains(level))
+    }
+
+    /// The path of a file that a program of file `caller` names, relative to the folder of the latter, without opening it for the
+    /// program.
+    ///
+    /// # Errors
+    /// Where it was searched.
+    pub(in crate::exec::program) fn search(
+        &self,
+        name: &str,
+        caller: Option<usize>,
+    ) -> Result<String, OpenError> {
+        let caller = caller.map(|file| &*self.names[file]);
+        let path = self.sources.open(name, caller)?.name();
+        let caller = caller.unwrap_or_default();
+        let folder = caller.rfind(['/', '\\']).map_or("", |last| &caller[..=last]);
+        Ok(path.strip_prefix(folder).unwrap_or(&path).to_owned())
+    }
+
     /// The file with a name as written in `caller`. Faults in the structure of a new file are returned as well.
     pub(in crate::exec) fn open(
         &mut self,
-        sources: &dyn Sources,
         name: &str,
         caller: Option<usize>,
-        skip: SkipLevels,
         parser: &Parser,
     ) -> Result<(usize, Vec<Diagnostic>), FileError> {
         if let Some(caller) = caller
@@ -179,7 +208,7 @@ impl Files {
             return Ok((*file, Vec::new()));
         }
         let caller_name = caller.map(|c| Arc::clone(&self.names[c]));
-        let source = sources.open(name, caller_name.as_deref()).map_err(FileError::Open)?;
+        let source = self.sources.open(name, caller_name.as_deref()).map_err(FileError::Open)?;
         let full = source.name();
         let known = self.names.iter().position(|n| *n == full);
         let (file, diagnostics) = if let Some(file) = known {
@@ -195,7 +224,8 @@ impl Files {
             let (index, diagnostics) = if let Some(known) = self.structures.0.get(&full) {
                 known.clone()
             } else {
-                let (index, found) = build(&mut reader, &full, skip).map_err(FileError::Read)?;
+                let (index, found) =
+                    build(&mut reader, &full, self.skip).map_err(FileError::Read)?;
                 let structure = (Arc::new(index), found);
                 self.structures.0.insert(Arc::clone(&full), structure.clone());
                 structure

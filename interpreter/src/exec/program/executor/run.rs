@@ -58,7 +58,7 @@ impl Executor {
         let Some((fetched, next)) = self.read(file, at) else { return };
         let (reads, faulty) = match &fetched {
             Fetched::Plain => (Reads::default(), false),
-            Fetched::Tree(tree) if self.skips(&tree.block) => (Reads::default(), tree.faulty),
+            Fetched::Tree(tree) if self.files.skips(&tree.block) => (Reads::default(), tree.faulty),
             Fetched::Tree(tree) => (tree.reads.clone(), tree.faulty),
         };
         if let Some(wait) = reads.actual
@@ -306,14 +306,9 @@ impl Executor {
         }
     }
 
-    /// Whether the block is skipped (`/`).
-    fn skips(&self, block: &Block) -> bool {
-        block.skip.is_some_and(|level| self.skip.contains(level))
-    }
-
     /// Executes the content of a block.
     fn execute(&mut self, block: &Block, entry: Option<EntryId>) {
-        if self.skips(block) {
+        if self.files.skips(block) {
             return;
         }
         match &block.body {

@@ -79,7 +79,12 @@ fn jumps_open_what_is_around_their_target() {
         let (index, _) =
             build(&mut BlockReader::new(source), &Arc::from("a.nc"), SkipLevels::NONE).unwrap();
         let index = Arc::new(index);
-        let mut files = Files::new(BTreeSet::default(), Structures::default());
+        let mut files = Files::new(
+            Arc::new(MemorySources::new()),
+            SkipLevels::NONE,
+            BTreeSet::default(),
+            Structures::default(),
+        );
         let position = |line: u32| {
             let entries = (0..=written.lines.len() as u32).map(|id| index.entry(id));
             (0..).zip(entries).find(|(_, entry)| entry.position.line == line).unwrap().0
