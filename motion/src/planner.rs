@@ -37,6 +37,7 @@ mod replan;
 mod rests;
 mod sharp;
 mod spent;
+mod timed;
 
 use crate::ahead::Ahead;
 use crate::axis::AxisVec;
@@ -57,6 +58,7 @@ use crate::tolerance::{Kernels, Monitor};
 use kontur_filters::time::CycleTime;
 use spent::Spent;
 use std::sync::Arc;
+pub(crate) use timed::Corners;
 
 /// One cycle of the path.
 #[derive(Clone, Debug, Default)]
@@ -261,6 +263,11 @@ impl Planner {
         let segment = Segment { queued: Arc::clone(&queued), cap, asked: None };
         self.plan.push(segment, self.cycle, self.kernels.any());
         self.last = Some(queued);
+    }
+
+    /// The last block pushed.
+    pub fn last_block(&self) -> Option<&Block> {
+        self.last.as_ref().map(|queued| &*queued.block)
     }
 
     /// Blocks that have been left, whose memory the caller may use for the next ones.

@@ -3,6 +3,7 @@
 mod limits;
 mod monitored;
 mod ripple;
+mod short_runs;
 mod slaved;
 mod unequal;
 

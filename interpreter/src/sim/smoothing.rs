@@ -15,6 +15,8 @@ use std::collections::BTreeSet;
 pub(super) struct Smoothing {
     splining: Splining,
     contouring: Contouring,
+    /// Whether the path rests after the last motion.
+    rests: bool,
     /// What follows a wait at a rounded corner.
     behind: Vec<Block>,
     /// Places already reported: condition, file, line.
@@ -28,16 +30,22 @@ impl Smoothing {
     pub(super) fn new(cycle: CycleTime) -> Self {
         let (splining, contouring) = (Splining::new(cycle), Contouring::new(cycle));
         let (said, changed) = (BTreeSet::new(), Changed::default());
-        Self { splining, contouring, behind: Vec::new(), said, changed }
+        Self { splining, contouring, rests: true, behind: Vec::new(), said, changed }
     }
 
     /// Takes a programmed motion; final blocks go to the planner.
     pub(super) fn push(&mut self, block: Box<Block>, planner: &mut Planner) {
         if self.splining.passes(&block) && self.contouring.passes(&block) {
+            self.rests = false;
             planner.push(block);
             return;
         }
         self.changed.begin(block.seq);
+        let behind = !self.rests && self.splining.is_empty() && self.contouring.passes(&block);
+        if behind && let Some(before) = planner.last_block() {
+            self.splining.begin_behind(before);
+        }
+        self.rests = false;
         for block in self.splining.push(*block, planner.kernels()) {
             for block in self.contouring.push(block, planner.kernels()) {
                 self.changed.add(&block);
@@ -102,6 +110,7 @@ impl Smoothing {
             self.changed.add(&block);
             planner.push(block);
         }
+        self.rests = true;
     }
 
     /// The corners since the last call that were not contoured as programmed.

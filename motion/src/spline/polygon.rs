@@ -1,7 +1,7 @@
 //! The control polygon around an edge: control points, knots, and the spline in Bezier form.
 
-use super::Span;
 use super::edge::Edge;
+use super::stage::Span;
 use crate::axis::AxisVec;
 use crate::path::PolyPiece;
 use crate::path::piece::divided;

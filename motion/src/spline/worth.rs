@@ -8,8 +8,8 @@
 //! the results of the earlier ones. A contour and its reverse therefore have the same sharp corners, except for those
 //! that take the same time either way.
 
-use super::Splining;
 use super::edge::{Curve, Edge};
+use super::stage::Stage;
 use crate::block::Block;
 use crate::limits::{PathExtremes, PathSpeeds};
 use crate::tolerance::Kernels;
@@ -22,7 +22,7 @@ const GAIN: f64 = 0.01;
 /// See [`Passage::corner_share`]. Half of the spline around a corner is nearly straight.
 const AS_CORNER: f64 = 1.0;
 
-impl Splining {
+impl Stage {
     /// Whether the spline takes no longer than the sharp corner at the start of an edge.
     pub(super) fn is_worth(&self, corner: usize, kernels: &Kernels) -> bool {
         let (from, to) = (&self.run[corner - 1], &self.run[corner]);
