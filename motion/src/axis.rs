@@ -31,8 +31,12 @@ impl Clone for AxisVec {
 
     #[inline]
     fn clone_from(&mut self, other: &Self) {
-        self.0.clear();
-        self.0.extend_from_slice(&other.0);
+        if self.len() == other.len() {
+            self.copy_from_slice(other);
+        } else {
+            self.0.clear();
+            self.0.extend_from_slice(&other.0);
+        }
     }
 }
 

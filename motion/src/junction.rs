@@ -33,7 +33,7 @@ use std::sync::Arc;
 pub(crate) const TANGENT: f64 = 1e-9;
 
 /// A block with its tangents and curvatures at both ends.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Ends {
     /// `dq/ds` at the start.
     pub tangent_in: AxisVec,
@@ -47,13 +47,18 @@ pub struct Ends {
 impl Ends {
     /// The ends of a block's path.
     pub fn of(block: &Block) -> Self {
+        let mut ends = Self::default();
+        ends.follow(block);
+        ends
+    }
+
+    /// Turns these ends into those of a block's path.
+    pub(crate) fn follow(&mut self, block: &Block) {
         if let Path::Line(line) = &block.path {
-            let tangent = line.direction();
-            return Self {
-                tangent_in: tangent.clone(),
-                tangent_out: tangent.clone(),
-                curvatures: None,
-            };
+            self.tangent_in.clone_from(line.direction());
+            self.tangent_out.clone_from(line.direction());
+            self.curvatures = None;
+            return;
         }
         let n = block.path.start().len();
         let at = |f: &dyn Fn(&mut [f64])| {
@@ -62,11 +67,9 @@ impl Ends {
             v
         };
         let (path, length) = (&block.path, block.path.length());
-        Self {
-            tangent_in: at(&|v| path.tangent(0.0, v)),
-            tangent_out: at(&|v| path.tangent(length, v)),
-            curvatures: Some(Box::new([0.0, length].map(|s| at(&|v| path.curvature(s, v))))),
-        }
+        self.tangent_in = at(&|v| path.tangent(0.0, v));
+        self.tangent_out = at(&|v| path.tangent(length, v));
+        self.curvatures = Some(Box::new([0.0, length].map(|s| at(&|v| path.curvature(s, v)))));
     }
 }
 

@@ -8,6 +8,7 @@
 //!
 //! The plan is about segments, speeds and moments; setpoints, filters and the final part are not touched here.
 
+mod reserve;
 mod short;
 
 use crate::asked::Asked;
@@ -18,6 +19,7 @@ use crate::queue::Queued;
 use crate::timeline::{Entry, Moment};
 use crate::tolerance::{Demands, Kernels};
 use kontur_filters::time::CycleTime;
+pub(crate) use reserve::{Later, Reserve};
 use short::lower_caps;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -60,8 +62,8 @@ pub(crate) struct Plan {
     pub(crate) start: Start,
     /// Demands of the tolerance on the segments, as far as they have been planned.
     pub(crate) demands: Demands,
-    /// Remaining spans of the most recent plan, from the start to rest.
-    pub(crate) reserve: VecDeque<Entry>,
+    /// Remainder of the most recent plan, from the start to rest.
+    pub(crate) reserve: Reserve,
     /// The most recent plan; most of it is reused in the next one.
     draft: Draft,
 }
@@ -81,7 +83,7 @@ impl Plan {
             programmed: 0,
             start,
             demands: Demands::default(),
-            reserve: VecDeque::new(),
+            reserve: Reserve::default(),
             draft: Draft::default(),
         }
     }
@@ -128,7 +130,8 @@ impl Plan {
     }
 
     /// Plans a window and places the spans on the time axis; `forced` boundaries are knots, and `end` is the reason why
-    /// the path ends.
+    /// the path ends. Spans that begin at block `enough` or later are not placed; these must have no demands, and the path must not
+    /// stop there.
     ///
     /// # Errors
     /// [`Infeasible`] if no speed profile leads from the start to rest.
@@ -137,8 +140,9 @@ impl Plan {
         window: &[Arc<Queued>],
         forced: &[bool],
         (start, end): (Moment, SpeedLimit),
+        enough: usize,
         cycle: CycleTime,
-    ) -> Result<Vec<Entry>, Infeasible> {
+    ) -> Result<(Vec<Entry>, Later), Infeasible> {
         let lower = |cap: Cap, demand: f64| cap.lower(Cap::new(demand, SpeedLimit::AxDev));
         let (n, demands) = (window.len(), &self.demands);
         let feeds: Vec<Cap> = window
@@ -170,21 +174,32 @@ impl Plan {
             None => start,
         };
         let mut s = self.start.s_mm;
-        let mut entries = Vec::with_capacity(spans.len());
-        for span in spans {
+        let (now, later) = spans.split_at(spans.partition_point(|span| span.first < enough));
+        let mut entries = Vec::with_capacity(now.len() + 1);
+        for span in now {
             let stop = demands.stop[span.end];
             let stops = stop.is_some() || (span.end == n && end != SpeedLimit::Lookahead);
             // made in place: entries are large
             entries.push(Entry::new(at, s, span, window, stops));
             let Some(entry) = entries.last_mut() else { continue };
-            entry.feeds.extend_from_slice(&feeds[span.first..span.end]);
+            let (blocks, feeds) = (span.first..span.end, &feeds[span.first..span.end]);
+            if window[blocks].iter().zip(feeds).any(|(q, feed)| q.velocity != *feed) {
+                entry.feeds.extend_from_slice(feeds);
+            }
             at = match stop {
                 Some(dwell) => Moment::tick(entry.end.next_tick(cycle) + u64::from(dwell)),
                 None => entry.end,
             };
             s += span.profile.length();
         }
-        Ok(entries)
+        Ok((entries, Later::new(later, at, s)))
+    }
+
+    /// The entries of the reserve, all of which are made now.
+    pub(crate) fn placed_reserve(&mut self) -> &mut VecDeque<Entry> {
+        let Self { reserve, segments, .. } = self;
+        reserve.place(segments.iter().map(|segment| &segment.queued));
+        &mut reserve.entries
     }
 
     /// The segments with the present demands of the tolerance.
@@ -214,9 +229,10 @@ impl Plan {
         kernels: &Kernels,
         cycle: CycleTime,
     ) {
+        self.placed_reserve();
         for (b, parts) in blocks.into_iter().rev() {
             let mut first = 0;
-            for entry in &mut self.reserve {
+            for entry in &mut self.reserve.entries {
                 if b < first + entry.blocks.len() {
                     entry.divide(b - first, &parts);
                     break;

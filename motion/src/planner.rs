@@ -241,7 +241,7 @@ impl Planner {
         let table = &mut self.slopes[usize::from(block.feed == Feed::Rapid)];
         table.take_if(|table| !table.serves(&block));
         let table = table.get_or_insert_with(|| SlopeTable::of(&block, self.cycle));
-        let queued = self.spent.place(Queued::with(block, table, &self.active.ratios));
+        let queued = self.spent.place(block, table, &self.active.ratios);
         let cap = match &self.last {
             Some(last) => transition(
                 &last.block,

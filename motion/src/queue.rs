@@ -107,53 +107,56 @@ impl Queued {
     /// Derives the limits of a block with its table, under a real-time override.
     pub(crate) fn with(block: Box<Block>, table: &SlopeTable, ratios: &Override) -> Self {
         let x = PathExtremes::of(&block.path);
-        let ends = Ends::of(&block);
-        let mut speeds = PathSpeeds::of(&block, &x);
-        if block.tangential {
-            let (from, to) = (&ends.tangent_in, &ends.tangent_out);
-            let kink = kink_velocity(&block, &block, from, to, table.cycle, false);
-            speeds.curve_mm_s = speeds.curve_mm_s.max(kink);
-        }
-        let (velocity, ceiling) = rated(&block, &speeds, ratios);
-        Self {
+        let speeds = PathSpeeds::of(&block, &x);
+        let mut queued = Self {
+            ends: Ends::default(),
             offset: 0.0,
+            length: 0.0,
             speeds,
-            ends,
-            length: block.path.length(),
-            velocity,
-            ceiling,
-            end_mm_s: rated_end(&block, &speeds, ratios),
+            velocity: Cap::STOP,
+            ceiling: Cap::STOP,
+            end_mm_s: 0.0,
             slope: table.path_slope(&x),
-            bend: x.second.iter().copied().fold(0.0, f64::max),
-            ball: (!block.path.is_straight()).then(|| Box::new(Ball::around(&block.path))),
+            bend: 0.0,
+            ball: None,
             goes_on: false,
             block,
-        }
+        };
+        queued.derive(&x, table.cycle, ratios);
+        queued
     }
 
-    /// Writes this block over one that nobody has any more, and returns the programmed block of that one.
+    /// Makes this block, which nobody has any more, another one, and returns the programmed block that it was.
     ///
-    /// Value by value: replaced as a whole, both would be copied.
-    pub(crate) fn put(self, place: &mut Self) -> Box<Block> {
-        let Self {
-            block,
-            ends,
-            offset,
-            length,
-            speeds,
-            velocity,
-            ceiling,
-            end_mm_s,
-            slope,
-            bend,
-            ball,
-            goes_on,
-        } = self;
-        (place.ends, place.slope, place.ball) = (ends, slope, ball);
-        (place.offset, place.length, place.bend, place.goes_on) = (offset, length, bend, goes_on);
-        place.speeds = speeds;
-        (place.velocity, place.ceiling, place.end_mm_s) = (velocity, ceiling, end_mm_s);
-        std::mem::replace(&mut place.block, block)
+    /// Value by value: replaced as a whole, a block would be copied several times.
+    pub(crate) fn become_block(
+        &mut self,
+        block: Box<Block>,
+        table: &SlopeTable,
+        ratios: &Override,
+    ) -> Box<Block> {
+        let before = std::mem::replace(&mut self.block, block);
+        let x = PathExtremes::of(&self.block.path);
+        self.speeds = PathSpeeds::of(&self.block, &x);
+        self.slope = table.path_slope(&x);
+        self.derive(&x, table.cycle, ratios);
+        before
+    }
+
+    /// Derives everything but the speeds and the slope of the block.
+    fn derive(&mut self, x: &PathExtremes, cycle: CycleTime, ratios: &Override) {
+        let block = &self.block;
+        self.ends.follow(block);
+        if block.tangential {
+            let (from, to) = (&self.ends.tangent_in, &self.ends.tangent_out);
+            let kink = kink_velocity(block, block, from, to, cycle, false);
+            self.speeds.curve_mm_s = self.speeds.curve_mm_s.max(kink);
+        }
+        (self.velocity, self.ceiling) = rated(block, &self.speeds, ratios);
+        self.end_mm_s = rated_end(block, &self.speeds, ratios);
+        (self.offset, self.length, self.goes_on) = (0.0, block.path.length(), false);
+        self.bend = x.second.iter().copied().fold(0.0, f64::max);
+        self.ball = (!block.path.is_straight()).then(|| Box::new(Ball::around(&block.path)));
     }
 
     /// The block under a real-time override.

@@ -92,12 +92,12 @@ pub(crate) struct Entry {
     pub(crate) why_down: SpeedLimit,
     /// Blocks with the path length inside the span at their end; the last one may extend beyond the span.
     pub(crate) blocks: SmallVec<[(Arc<Queued>, f64); 1]>,
-    /// Speeds that the plan assigned to the blocks; empty: those of the blocks.
-    pub(crate) feeds: SmallVec<[Cap; 1]>,
+    /// Speeds that the plan assigned to the blocks; empty: those of the blocks, as without demands of the tolerance.
+    pub(crate) feeds: Vec<Cap>,
     /// Caps at the starts of the blocks, and the demands of the tolerance on them, once the entry is final.
     pub(crate) caps: SmallVec<[(Cap, Option<Asked>); 1]>,
     /// Limits inside the entry to which the speed falls, in order.
-    lows: SmallVec<[Low; 1]>,
+    lows: Vec<Low>,
     /// Whether the motion ends here, at its next tick.
     pub(crate) stops: bool,
     pub(crate) seen: Seen,
@@ -169,9 +169,9 @@ impl Entry {
             why_up: why.0,
             why_down: why.1,
             blocks: ends,
-            feeds: SmallVec::new(),
+            feeds: Vec::new(),
             caps: SmallVec::new(),
-            lows: SmallVec::new(),
+            lows: Vec::new(),
             stops,
             seen: Seen::Nothing,
             cut_s: None,
@@ -211,7 +211,8 @@ impl Entry {
         let mut end = self.blocks[block].1;
         self.blocks.remove(block);
         if let Some(feed) = self.feeds.get(block).copied() {
-            self.feeds.insert_many(block, std::iter::repeat_n(feed, parts.len().saturating_sub(1)));
+            let more = std::iter::repeat_n(feed, parts.len().saturating_sub(1));
+            self.feeds.splice(block..block, more);
         }
         for part in parts.iter().rev() {
             self.blocks.insert(block, (Arc::clone(part), end));
@@ -283,7 +284,12 @@ impl Timeline {
     }
 
     pub(crate) fn append(&mut self, mut entries: VecDeque<Entry>) {
-        self.entries.append(&mut entries);
+        if self.entries.is_empty() {
+            // entries are large: not copied
+            self.entries = entries;
+        } else {
+            self.entries.append(&mut entries);
+        }
     }
 
     pub(crate) fn entries(&self) -> impl DoubleEndedIterator<Item = &Entry> {

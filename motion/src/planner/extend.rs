@@ -4,7 +4,7 @@ use super::Planner;
 use crate::cap::{Cap, SpeedLimit};
 use crate::deviation::Unkept;
 use crate::deviation::{Change, What};
-use crate::plan::{Segment, Start, last_blocks};
+use crate::plan::{Later, Reserve, Segment, Start, last_blocks};
 use crate::profile::{Infeasible, SlopeLimits};
 use crate::queue::Queued;
 use crate::timeline::{Entry, Moment, Seen, is_at};
@@ -56,7 +56,14 @@ impl Planner {
         let (mut round, mut given_up) = (0, false);
         loop {
             let ends = (start, end);
-            let searched = self.search(&window, &forced, ends, last, &mut round, f64::INFINITY);
+            let (searched, later) = if last.is_none() && !rests && self.is_free() {
+                round += 1;
+                self.plan_freely(&window, &forced, ends, last_window)
+            } else {
+                let most = f64::INFINITY;
+                let searched = self.search(&window, &forced, ends, last, &mut round, most);
+                (searched, Later::default())
+            };
             let mut entries = match searched {
                 Searched::Kept(entries) if round > 1 && !given_up => {
                     let entries = self.answer_only(&asked, &window, &forced, ends, entries);
@@ -92,12 +99,32 @@ impl Planner {
                 last = Some(entries);
                 continue;
             };
-            self.commit(entries, count);
+            self.commit(entries, later, count);
             if given_up {
                 // demands that did not help are not tried again
                 self.plan.demands = Demands::default();
             }
             return Ok(());
+        }
+    }
+
+    /// Whether no block so far has a tolerance.
+    fn is_free(&self) -> bool {
+        self.least_tolerance_mm.is_infinite()
+    }
+
+    /// A plan of blocks without tolerance, for which nothing has to be searched; with entries for its first `enough` blocks,
+    /// because nobody needs those of the others unless the path has to continue along this plan.
+    fn plan_freely(
+        &mut self,
+        window: &[Arc<Queued>],
+        forced: &[bool],
+        ends: (Moment, SpeedLimit),
+        enough: usize,
+    ) -> (Searched, Later) {
+        match self.plan.place(window, forced, ends, enough, self.cycle) {
+            Ok((entries, later)) => (Searched::Kept(entries), later),
+            Err(e) => (Searched::Infeasible(e), Later::default()),
         }
     }
 
@@ -115,16 +142,21 @@ impl Planner {
     ) -> Searched {
         let mut marks = Marks::default();
         loop {
-            let mut entries = match self.plan.place(window, forced, ends, self.cycle) {
-                Ok(entries) => entries,
+            let placed = self.plan.place(window, forced, ends, usize::MAX, self.cycle);
+            let mut entries = match placed {
+                Ok((entries, _)) => entries,
                 Err(e) => return Searched::Infeasible(e),
             };
             if entries.last().is_some_and(|e| e.end.cycles(self.cycle) >= too_late) {
                 return Searched::TooLate;
             }
-            let before = last.as_deref().unwrap_or_else(|| self.plan.reserve.make_contiguous());
-            recall(&mut entries, before, self.cycle);
-            let verdict = self.verdict(&mut entries, *round, &mut marks);
+            let verdict = if self.monitors() {
+                let before = last.as_deref().unwrap_or(self.plan.reserve.entries.make_contiguous());
+                recall(&mut entries, before, self.cycle);
+                self.verdict(&mut entries, *round, &mut marks)
+            } else {
+                Verdict::Kept
+            };
             // a plan that is measured in a few places only is not a round
             *round += usize::from(!matches!(verdict, Verdict::Again));
             match verdict {
@@ -134,6 +166,11 @@ impl Planner {
                 Verdict::GivenUp(unkept) => return Searched::GivenUp(entries, unkept),
             }
         }
+    }
+
+    /// Whether there may be blocks whose tolerance has to be kept.
+    fn monitors(&self) -> bool {
+        !self.is_free() && self.kernels.any()
     }
 
     /// Reports a tolerance that is not kept; the output will exceed it as well.
@@ -147,7 +184,7 @@ impl Planner {
     /// [`Monitor::examine`]: crate::tolerance::Monitor::examine
     fn verdict(&mut self, entries: &mut [Entry], round: usize, marks: &mut Marks) -> Verdict {
         let mut blocks = entries.iter().flat_map(|e| &e.blocks);
-        if !blocks.any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some()) || !self.kernels.any() {
+        if !blocks.any(|(q, _)| q.block.tolerance.ax_dev_mm.is_some()) {
             return Verdict::Kept;
         }
         let mut demands = std::mem::take(&mut self.plan.demands);
@@ -231,26 +268,28 @@ impl Planner {
     /// New blocks can make the window infeasible: with ramps, braking to the low speed that they require may take
     /// longer than the planned braking to rest, and runs of blocks are formed anew from the present start.
     pub(super) fn fall_back(&mut self) -> Option<()> {
-        let mut entry = self.plan.reserve.pop_front()?;
+        let reserve = self.plan.placed_reserve();
+        let mut entry = reserve.pop_front()?;
         let few = entry.blocks.len().div_ceil(FALL_BACK_PARTS);
         if few < entry.blocks.len()
             && self.may_part(&entry)
             && let Some([now, later]) = entry.split(few)
         {
-            self.plan.reserve.push_front(later);
+            self.plan.reserve.entries.push_front(later);
             entry = now;
         }
-        entry.stops |= self.plan.reserve.is_empty();
+        entry.stops |= self.plan.reserve.entries.is_empty();
         entry.hold_to(self.plan.pass(entry.blocks.len()).iter().map(Segment::limits));
         self.append(entry, 0);
-        if let Some(next) = self.plan.reserve.front() {
+        if let Some(next) = self.plan.reserve.entries.front() {
             // there may be a dwell in between
             self.plan.start.moment = next.start;
         }
         Some(())
     }
 
-    fn commit(&mut self, entries: Vec<Entry>, count: usize) {
+    /// Makes the first `count` entries of a plan final; `later` are its spans behind the entries.
+    fn commit(&mut self, entries: Vec<Entry>, later: Later, count: usize) {
         let mut entries = VecDeque::from(entries);
         let mut dwells: Vec<u32> = Vec::with_capacity(count);
         let mut blocks = 0;
@@ -264,7 +303,7 @@ impl Planner {
             entry.hold_to(own.map(|segment| segment.limits()));
             self.enter(entry, dwell);
         }
-        self.plan.reserve = entries.split_off(count);
+        self.plan.reserve = Reserve::new(entries.split_off(count), later, blocks);
         self.timeline.append(entries);
         // a speed that ends at a limit rises again from there because of that limit
         if let Some(next) = self.plan.segments.front() {

@@ -81,7 +81,8 @@ impl Planner {
     /// threads), nor on those that their axes limit. A leg would pass through zero acceleration.
     fn changes_nothing(&self) -> bool {
         let stays = |queued: &Arc<Queued>| Arc::ptr_eq(queued, &queued.rated(&self.wanted.ratios));
-        let mut planned = self.timeline.entries().chain(&self.plan.reserve).flat_map(|e| &e.blocks);
+        let reserve = &self.plan.reserve.entries;
+        let mut planned = self.timeline.entries().chain(reserve).flat_map(|e| &e.blocks);
         self.active.hold.is_none()
             && self.wanted.hold.is_none()
             && planned.all(|(queued, _)| stays(queued))

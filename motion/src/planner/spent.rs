@@ -1,7 +1,9 @@
 //! Memory of queued blocks that have been left, for the next ones: see [`SpareBlocks`].
 
-use crate::block::SpareBlocks;
+use crate::block::{Block, SpareBlocks};
+use crate::limits::SlopeTable;
 use crate::queue::Queued;
+use crate::realtime::Override;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -32,15 +34,21 @@ impl Spent {
         self.left.push_back(queued);
     }
 
-    /// Shares a block, in the memory of the first one that was left unless somebody still has that.
-    pub(super) fn place(&mut self, queued: Queued) -> Arc<Queued> {
-        let Some(mut first) = self.left.pop_front() else { return Arc::new(queued) };
-        let Some(place) = Arc::get_mut(&mut first) else {
+    /// Derives the limits of a block and shares it, in the memory of the first one that was left unless somebody still has that.
+    pub(super) fn place(
+        &mut self,
+        block: Box<Block>,
+        table: &SlopeTable,
+        ratios: &Override,
+    ) -> Arc<Queued> {
+        if let Some(mut first) = self.left.pop_front() {
+            if let Some(place) = Arc::get_mut(&mut first) {
+                self.blocks.add(place.become_block(block, table, ratios));
+                return first;
+            }
             self.left.push_front(first);
-            return Arc::new(queued);
-        };
-        self.blocks.add(queued.put(place));
-        first
+        }
+        Arc::new(Queued::with(block, table, ratios))
     }
 }
 
@@ -50,9 +58,14 @@ mod tests {
     use crate::example::block;
     use kontur_filters::time::CycleTime;
 
-    fn queued(seq: u64) -> Queued {
-        let block = block(seq, [0.0, 0.0], [seq as f64, 0.0], 10.0);
-        Queued::new(block, CycleTime::from_us(1000).unwrap())
+    fn programmed(seq: u64) -> Block {
+        block(seq, [0.0, 0.0], [seq as f64, 0.0], 10.0)
+    }
+
+    fn place(spent: &mut Spent, seq: u64) -> Arc<Queued> {
+        let block = programmed(seq);
+        let table = SlopeTable::of(&block, CycleTime::from_us(1000).unwrap());
+        spent.place(Box::new(block), &table, &Override::default())
     }
 
     /// A block that somebody still has keeps its memory and its content; one that nobody has gives its memory away, and the
@@ -60,18 +73,19 @@ mod tests {
     #[test]
     fn only_what_nobody_has_is_overwritten() {
         let mut spent = Spent::default();
-        let (first, second) = (spent.place(queued(1)), spent.place(queued(2)));
+        let (first, second) = (place(&mut spent, 1), place(&mut spent, 2));
         let places = [Arc::as_ptr(&first), Arc::as_ptr(&second)];
         spent.keep(Arc::clone(&first));
         spent.keep(second);
-        let third = spent.place(queued(3));
+        let third = place(&mut spent, 3);
         assert!(!places.contains(&Arc::as_ptr(&third)));
         assert_eq!((first.block.seq, third.block.seq), (1, 3));
         assert!(spent.blocks.is_empty());
         drop(first);
-        let (fourth, fifth) = (spent.place(queued(4)), spent.place(queued(5)));
+        let (fourth, fifth) = (place(&mut spent, 4), place(&mut spent, 5));
         assert_eq!([Arc::as_ptr(&fourth), Arc::as_ptr(&fifth)], places);
-        assert_eq!(format!("{fourth:?}"), format!("{:?}", queued(4)));
+        let anew = Queued::new(programmed(4), CycleTime::from_us(1000).unwrap());
+        assert_eq!(format!("{fourth:?}"), format!("{anew:?}"));
         assert!(!spent.blocks.is_empty());
     }
 
@@ -79,7 +93,7 @@ mod tests {
     #[test]
     fn few_are_kept() {
         let mut spent = Spent::default();
-        let held = spent.place(queued(1));
+        let held = place(&mut spent, 1);
         for _ in 0..3 * MOST {
             spent.keep(Arc::clone(&held));
         }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 const USUAL_PHASES: usize = 7;
 
 /// A speed that is never negative, in phases of constant jerk or of one sine-square ramp each.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Profile {
     end: State,
     duration: f64,
@@ -19,27 +19,39 @@ pub struct Profile {
 /// Phases in order with their start times, possibly with empty ones.
 #[derive(Clone, Debug)]
 enum Phases {
-    /// Most short blocks have only one, which needs no memory of its own.
-    One([(f64, Phase); 1]),
+    /// One at constant speed, as most short blocks have it: what it is follows from the end and the duration. Plans and entries
+    /// of the timeline are copied often, and this keeps them small.
+    Even,
     /// Shared: plans pass their profiles on.
     Shared(Arc<[(f64, Phase)]>),
 }
 
-impl Deref for Phases {
+/// The phases of a profile, to be read.
+enum Row<'a> {
+    Even([(f64, Phase); 1]),
+    Shared(&'a [(f64, Phase)]),
+}
+
+impl Deref for Row<'_> {
     type Target = [(f64, Phase)];
 
     #[inline]
     fn deref(&self) -> &Self::Target {
         match self {
-            Self::One(phase) => phase,
+            Self::Even(phase) => phase,
             Self::Shared(phases) => phases,
         }
     }
 }
 
-impl PartialEq for Phases {
+impl PartialEq for Profile {
     fn eq(&self, other: &Self) -> bool {
-        std::ptr::eq(&raw const self[..], &raw const other[..]) || self[..] == other[..]
+        let same = match (&self.phases, &other.phases) {
+            (Phases::Even, Phases::Even) => true,
+            (Phases::Shared(own), Phases::Shared(others)) if Arc::ptr_eq(own, others) => true,
+            _ => self.row()[..] == other.row()[..],
+        };
+        same && self.end == other.end && self.duration == other.duration
     }
 }
 
@@ -60,9 +72,19 @@ impl Profile {
     /// A constant speed in mm/s, above 0, over a length, as most short blocks of a run have it.
     #[inline]
     pub(crate) fn even(v_mm_s: f64, length: f64) -> Self {
-        let cruise = Phase::state(0.0, v_mm_s, 0.0).until(length / v_mm_s);
         let end = State { s_mm: length, v_mm_s, ..State::default() };
-        Self { phases: Phases::One([(0.0, cruise)]), duration: cruise.t, end }
+        Self { phases: Phases::Even, duration: length / v_mm_s, end }
+    }
+
+    #[inline]
+    fn row(&self) -> Row<'_> {
+        match &self.phases {
+            Phases::Even => {
+                let cruise = Phase::state(0.0, self.end.v_mm_s, 0.0).until(self.duration);
+                Row::Even([(0.0, cruise)])
+            }
+            Phases::Shared(phases) => Row::Shared(phases),
+        }
     }
 
     /// Consecutive phases over a length.
@@ -81,24 +103,26 @@ impl Profile {
     /// This profile with another one after its end.
     pub(super) fn followed_by(&self, next: &Self) -> Self {
         let length = self.end.s_mm;
-        let moved = next.phases.iter().map(|(_, p)| p.placed_at(length + p.s));
+        let (own, behind) = (self.row(), next.row());
+        let moved = behind.iter().map(|(_, p)| p.placed_at(length + p.s));
         let end = State { s_mm: length + next.end.s_mm, ..next.end };
-        Self::new(self.phases.iter().map(|(_, p)| *p).chain(moved), end)
+        Self::new(own.iter().map(|(_, p)| *p).chain(moved), end)
     }
 
     /// The parts before and after a path length, with the acceleration at that point unchanged; `None` if this cuts a
     /// sine-square ramp, or leaves a ramp that starts with an acceleration.
     pub(crate) fn split(&self, s_mm: f64) -> Option<(Self, Self)> {
-        let i = self.phases.partition_point(|p| p.1.s <= s_mm).checked_sub(1)?;
-        let phase = self.phases[i].1;
+        let phases = self.row();
+        let i = phases.partition_point(|p| p.1.s <= s_mm).checked_sub(1)?;
+        let phase = phases[i].1;
         let t = phase.time_at(s_mm);
         let cut = phase.after(t);
-        let curved = self.phases.iter().any(|(_, p)| p.is_curved());
+        let curved = phases.iter().any(|(_, p)| p.is_curved());
         if phase.is_curved() || curved && cut.a != 0.0 {
             return None;
         }
-        let before = self.phases[..i].iter().map(|p| p.1).chain([phase.until(t)]);
-        let behind = [phase.rest(t)].into_iter().chain(self.phases[i + 1..].iter().map(|p| p.1));
+        let before = phases[..i].iter().map(|p| p.1).chain([phase.until(t)]);
+        let behind = [phase.rest(t)].into_iter().chain(phases[i + 1..].iter().map(|p| p.1));
         let moved = behind.map(|p| p.placed_at((p.s - s_mm).max(0.0)));
         let end = State { s_mm: self.end.s_mm - s_mm, ..self.end };
         Some((Self::over(before.collect(), s_mm), Self::new(moved, end)))
@@ -125,7 +149,8 @@ impl Profile {
     /// acceleration level from the lowest, cruise, one per deceleration level from the highest. Braking to the feed
     /// rate first: those of both parts. A speed along varying limits: as many as needed.
     pub fn phases(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
-        self.phases.iter().map(|(_, p)| (p.t, p.j))
+        let phases = self.row();
+        (0..phases.len()).map(move |i| (phases[i].1.t, phases[i].1.j))
     }
 
     /// Highest velocity in mm/s.
@@ -136,10 +161,11 @@ impl Profile {
     /// Highest velocity in mm/s at the phase starts and at the changes from acceleration to braking between two path
     /// lengths; 0 if there are none. In between no velocity exceeds this value and those at the two path lengths.
     pub(crate) fn highest_inside(&self, from_mm: f64, to_mm: f64) -> f64 {
-        let first = self.phases.partition_point(|p| p.1.s < from_mm);
-        let last = self.phases.partition_point(|p| p.1.s <= to_mm);
-        let starts = self.phases[first..last].iter().map(|p| p.1.v);
-        let around = &self.phases[first.saturating_sub(1)..last];
+        let phases = self.row();
+        let first = phases.partition_point(|p| p.1.s < from_mm);
+        let last = phases.partition_point(|p| p.1.s <= to_mm);
+        let starts = phases[first..last].iter().map(|p| p.1.v);
+        let around = &phases[first.saturating_sub(1)..last];
         let turns = around.iter().filter_map(|p| p.1.turn());
         let inside = turns.filter(|turn| turn.s >= from_mm && turn.s <= to_mm).map(|turn| turn.v);
         starts.chain(inside).fold(0.0, f64::max)
@@ -147,7 +173,8 @@ impl Profile {
 
     /// Whether the speed rises again after it has fallen.
     pub(crate) fn rises_after_a_fall(&self) -> bool {
-        let mut accelerations = self.phases.iter().map(|(_, p)| p.a);
+        let phases = self.row();
+        let mut accelerations = phases.iter().map(|(_, p)| p.a);
         accelerations.any(|a| a < 0.0) && accelerations.any(|a| a > 0.0)
     }
 
@@ -157,7 +184,11 @@ impl Profile {
             return self.end;
         }
         match &self.phases {
-            Phases::One([(start, phase)]) => phase.state_after(t - start, self.end.s_mm),
+            // the phase evaluated without its zeros, all but one of which cannot change a bit
+            Phases::Even => {
+                let way = t.clamp(0.0, self.duration) * self.end.v_mm_s;
+                State { s_mm: (0.0 + way).min(self.end.s_mm), ..self.end }
+            }
             Phases::Shared(phases) => {
                 let next = phases.partition_point(|p| p.0 <= t).max(1);
                 let Some((start, phase)) = phases.get(next - 1) else { return self.end };
@@ -172,7 +203,8 @@ impl Profile {
         if s_mm >= self.end.s_mm {
             return self.duration;
         }
-        let i = self.phases.partition_point(|p| p.1.s <= s_mm).saturating_sub(1);
-        self.phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s_mm))
+        let phases = self.row();
+        let i = phases.partition_point(|p| p.1.s <= s_mm).saturating_sub(1);
+        phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s_mm))
     }
 }

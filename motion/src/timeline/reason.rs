@@ -9,7 +9,6 @@ use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::ROUNDING;
 use crate::profile::FLAT_MM_S2;
 use crate::profile::State;
-use smallvec::SmallVec;
 
 /// Relative difference up to which the speed counts as being at a limit: the gap that a ride leaves.
 const TOUCHES: f64 = 1e-3;
@@ -34,7 +33,7 @@ impl Entry {
         self.lows = if self.blocks.len() > 1 && self.profile.rises_after_a_fall() {
             (1..self.blocks.len()).filter_map(|i| self.low_before(i)).collect()
         } else {
-            SmallVec::new()
+            Vec::new()
         };
     }
 
