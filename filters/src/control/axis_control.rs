@@ -28,10 +28,12 @@
 //! assert!(axis.faults().is_empty() && pushed.lag_mm.is_finite());
 //! ```
 
+mod calm;
 mod config;
 mod cycle;
 mod given;
 mod renewal;
+mod shown;
 
 use super::{
     buffer::SetpointBuffer,
@@ -46,6 +48,7 @@ use crate::time::CycleTime;
 pub use config::{AxisControlConfig, Encoder};
 pub use given::AxisInputs;
 use given::Given;
+pub use shown::Shown;
 use std::sync::Arc;
 
 /// Values in the drive's format, in counts unless the name says otherwise.

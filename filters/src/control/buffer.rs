@@ -61,7 +61,7 @@ pub struct SetpointBuffer {
 impl SetpointBuffer {
     /// Base delay 5, time offset 4, two setpoints before the reference and the reference itself; rounded up to a power
     /// of two.
-    const CAPACITY: usize = 16;
+    pub(crate) const CAPACITY: usize = 16;
     /// Longest delay in cycles.
     pub(crate) const MAX_DELAY: usize = Self::CAPACITY - 3;
 
@@ -111,6 +111,20 @@ impl SetpointBuffer {
         self.without_gain = if has_gain { 0 } else { self.without_gain.saturating_add(1) };
     }
 
+    /// Takes the setpoints of consecutive cycles without feedforward.
+    pub(crate) fn pass(&mut self, positions_mm: impl DoubleEndedIterator<Item = f64>) {
+        // earlier ones would be overwritten
+        let mut newest = [0.0; Self::CAPACITY];
+        let mut count = 0;
+        for (place, position_mm) in newest.iter_mut().zip(positions_mm.rev()) {
+            *place = position_mm;
+            count += 1;
+        }
+        for position_mm in newest[..count].iter().rev() {
+            self.push(Setpoint { position_mm: *position_mm, ..Setpoint::default() });
+        }
+    }
+
     /// Whether no setpoint of the buffer has feedforward: the gain of every window is then 0.
     pub(crate) const fn is_without_gain(&self) -> bool {
         self.without_gain >= Self::CAPACITY
@@ -127,6 +141,13 @@ impl SetpointBuffer {
     #[inline]
     pub fn reference_mm(&self) -> f64 {
         self.at(self.delay, 0).position_mm
+    }
+
+    /// The positions in mm on which the controller will work in the next cycles, as far as they are in the buffer now: as many as
+    /// the delay has cycles.
+    pub(crate) fn waiting_mm(&self) -> [f64; Self::CAPACITY] {
+        let age = |i: usize| self.delay.saturating_sub(1 + i);
+        std::array::from_fn(|i| self.at(age(i), 0).position_mm)
     }
 
     /// The setpoints from which feedforward is computed.

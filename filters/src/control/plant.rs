@@ -27,13 +27,14 @@ mod config;
 mod linear;
 mod models;
 mod quantities;
+mod rigid;
 mod row;
 
 use crate::time::CycleTime;
 pub use config::{ModalConfig, Mode, PlantConfig, PlantModel, SpeedLoop, TwoMassConfig};
 use linear::{Continuous, LinearPlant};
 pub use quantities::{Disturbance, Measured, PlantError, PlantInput};
-pub(crate) use row::{FewStates, InAxis, PlantOfRow};
+pub(crate) use row::{Apart, FewStates, InAxis, PlantOfRow};
 
 /// The simulated axis with its state.
 #[derive(Clone, Debug)]

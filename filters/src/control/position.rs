@@ -102,9 +102,13 @@ impl PositionConfig {
     /// Source: P-AXIS-00395 suppresses small commands at standstill; effective only with position control in the CNC.
     #[inline]
     pub fn error_mm(&self, lag_mm: f64, reference_rests: bool) -> f64 {
-        let inside = lag_mm.abs() < self.dead_band_mm;
-        let quiet = inside && reference_rests && self.closed_in == PositionLoop::Cnc;
+        let quiet = lag_mm.abs() < self.suppressed_mm() && reference_rests;
         if quiet { 0.0 } else { lag_mm }
+    }
+
+    /// Following error in mm below which an axis whose reference rests gets no command; 0 if it always gets one.
+    pub(crate) fn suppressed_mm(&self) -> f64 {
+        if self.closed_in == PositionLoop::Cnc { self.dead_band_mm } else { 0.0 }
     }
 
     /// Limit of the speed command in mm/s; `None` without one, as with a drive that closes the loop and limits its own
@@ -131,6 +135,11 @@ impl SpeedLimiter {
     /// Whether the command is at the limit.
     pub(crate) const fn is_active(&self) -> bool {
         self.active
+    }
+
+    /// Speed in mm/s up to which a command is passed on as it is.
+    pub(crate) fn lets_by_mm_s(&self) -> f64 {
+        self.limit_mm_s.unwrap_or(f64::INFINITY)
     }
 
     /// The limited command in mm/s, and a fault if an excess begins.

@@ -20,12 +20,12 @@ fn run(
     let before = axis.clone();
     let mut shown = Vec::new();
     let mut count =
-        axis.run(row, gain, jerk_limited, shown_from, |i, output| shown.push((i, output)));
+        axis.run(row, gain, jerk_limited, shown_from, |i, of| shown.push((i, of.output())));
     while count < row.len() {
         *axis = before.clone();
         shown.clear();
-        let again = axis.run(&row[..count], gain, jerk_limited, shown_from, |i, output| {
-            shown.push((i, output));
+        let again = axis.run(&row[..count], gain, jerk_limited, shown_from, |i, of| {
+            shown.push((i, of.output()));
         });
         if again == count {
             break;

@@ -1,7 +1,8 @@
 //! One cycle of an axis, or many in a row: from the set position to the drive, the monitors and the plant.
 
 use super::given::Given;
-use super::{AxisControl, ControlOutput, DriveValues, Encoder};
+use super::shown::{Seen, Shown};
+use super::{AxisControl, ControlOutput, Encoder};
 use crate::control::RANGE_MM;
 use crate::control::{
     buffer::Setpoint,
@@ -14,12 +15,12 @@ use crate::control::{
 };
 
 /// Cycles of an axis under the same inputs, gain and slope.
-struct Row<'a> {
-    set_mm: &'a [f64],
+pub(super) struct Row<'a> {
+    pub(super) set_mm: &'a [f64],
     gain: f64,
     jerk_limited: bool,
     /// The first cycle whose output is shown.
-    shown_from: usize,
+    pub(super) shown_from: usize,
 }
 
 impl AxisControl {
@@ -54,7 +55,7 @@ impl AxisControl {
     #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let mut output = ControlOutput::default();
-        self.run(&[set_mm], gain, jerk_limited, 0, |_, seen| output = seen);
+        self.run(&[set_mm], gain, jerk_limited, 0, |_, shown| output = shown.output());
         output
     }
 
@@ -63,7 +64,7 @@ impl AxisControl {
     /// the last one, some parts of the axis are already ahead of it, and the axis has to be restored to its earlier
     /// state.
     ///
-    /// `show` receives the output of the cycles from number `shown_from` on, and of a cycle with a fault.
+    /// `show` receives the cycles from number `shown_from` on, and of a cycle with a fault.
     #[inline] // the output is large: used where it is made
     pub fn run(
         &mut self,
@@ -71,7 +72,7 @@ impl AxisControl {
         gain: f64,
         jerk_limited: bool,
         shown_from: usize,
-        mut show: impl FnMut(usize, ControlOutput),
+        mut show: impl FnMut(usize, &Shown<'_>),
     ) -> usize {
         self.faults.clear();
         let set_by_set = !self.exact_stop.rests();
@@ -84,17 +85,19 @@ impl AxisControl {
         self.setpoint.pass(&set_mm[..count - 1]);
         let row = Row { set_mm: &set_mm[..count], gain, jerk_limited, shown_from };
         if count == 1 || !self.is_plain(gain) {
-            return self.cycles::<false, _>(&row, InAxis, &mut show).0;
+            return self.cycles::<false, _>(&row, 0, InAxis, &mut show).0;
         }
         match self.plant.few_states() {
-            None => self.cycles::<true, _>(&row, InAxis, &mut show).0,
-            Some(FewStates::Two(plant)) => {
-                let (count, plant) = self.cycles::<true, _>(&row, plant, &mut show);
+            None => self.cycles::<true, _>(&row, 0, InAxis, &mut show).0,
+            Some(FewStates::Two(mut plant)) => {
+                let calm = self.calm_cycles(&row, &mut plant, &mut show);
+                let (count, plant) = self.cycles::<true, _>(&row, calm, plant, &mut show);
                 self.plant.put_back(FewStates::Two(plant));
                 count
             }
-            Some(FewStates::Three(plant)) => {
-                let (count, plant) = self.cycles::<true, _>(&row, plant, &mut show);
+            Some(FewStates::Three(mut plant)) => {
+                let calm = self.calm_cycles(&row, &mut plant, &mut show);
+                let (count, plant) = self.cycles::<true, _>(&row, calm, plant, &mut show);
                 self.plant.put_back(FewStates::Three(plant));
                 count
             }
@@ -112,14 +115,15 @@ impl AxisControl {
             && !self.open
     }
 
-    /// Steps the axis by the cycles of a row, up to the first one with a fault; the number of cycles. With `PLAIN` the
-    /// axis [is so](Self::is_plain), and parts that are off are not asked in every cycle.
+    /// Steps the axis by the cycles of a row from number `first` on, up to the first one with a fault; the number of cycles,
+    /// those before included. With `PLAIN` the axis [is so](Self::is_plain), and parts that are off are not asked in every cycle.
     #[inline] // the output is large: used where it is made
     fn cycles<const PLAIN: bool, P: PlantOfRow>(
         &mut self,
         row: &Row<'_>,
+        first: usize,
         mut plant: P,
-        show: &mut impl FnMut(usize, ControlOutput),
+        show: &mut impl FnMut(usize, &Shown<'_>),
     ) -> (usize, P) {
         let Row { gain, jerk_limited, shown_from, .. } = *row;
         let count = row.set_mm.len();
@@ -130,7 +134,7 @@ impl AxisControl {
         given.set = self.given.set;
         let set_by_set = !PLAIN && !self.exact_stop.rests();
         let calm = self.ipc.is_off() && !self.diverged && !set_by_set;
-        for (i, set_mm) in row.set_mm.iter().copied().enumerate() {
+        for (i, set_mm) in row.set_mm.iter().copied().enumerate().skip(first) {
             let last = i + 1 == count;
             let before = std::mem::replace(&mut given.set, set_mm.to_bits());
             let set_mm = if set_mm.abs() <= RANGE_MM { set_mm } else { self.set_mm };
@@ -206,30 +210,17 @@ impl AxisControl {
 
             let tcp_before_mm_s = std::mem::replace(&mut self.tcp_mm_s, measured.tcp_mm_s);
             if faulty || i >= shown_from || last {
-                let shown_mm = match encoder {
-                    Encoder::Motor => actual_mm,
-                    Encoder::Direct => measured.motor_mm,
-                };
-                let output = ControlOutput {
+                let seen = Seen {
                     reference_mm,
-                    act_mm: shown_mm,
-                    load_mm: match encoder {
-                        Encoder::Motor => measured.load_mm,
-                        Encoder::Direct => actual_mm,
-                    },
-                    lag_mm: reference_mm - actual_mm,
-                    lag_limit_mm: self.lag.limit_mm(),
-                    settling_s: self.exact_stop.settling_s(),
+                    actual_mm,
+                    measured,
+                    tcp_before_mm_s,
                     feedforward,
                     command_mm_s,
-                    additive_speed_mm_s: additive.speed_mm_s,
-                    additive_speed_limited: additive.limited,
-                    tcp_mm: measured.tcp_mm,
-                    tcp_acc_mm_s2: (measured.tcp_mm_s - tcp_before_mm_s) / cycle_s,
-                    drive: self.drive_values(command_mm_s, &feedforward, additive.speed_mm_s),
+                    additive,
                     faulty,
                 };
-                show(i, output);
+                show(i, &Shown::of(self, seen));
             }
             if faulty {
                 self.given = given;
@@ -291,21 +282,5 @@ impl AxisControl {
     fn felt_mm_s2(&self, wanted: f64) -> f64 {
         let torque = &self.config.torque;
         if wanted.abs() > 0.0 { torque.acceleration(torque.torque(wanted)) } else { 0.0 }
-    }
-
-    #[inline]
-    fn drive_values(&self, command: f64, ff: &FeedforwardOutput, additive: f64) -> DriveValues {
-        let (command_scale, ff_scale) = self.counts_per_mm_s;
-        let mut values = DriveValues {
-            command: command * command_scale,
-            feedforward: (ff.speed_mm_s + ff.additive_speed_mm_s) * ff_scale,
-            additive_speed: additive * command_scale,
-            ..DriveValues::default()
-        };
-        if ff.additive_acc_mm_s2.abs() > 0.0 {
-            values.torque_n_m = self.config.torque.torque(ff.additive_acc_mm_s2);
-            values.torque = self.config.torque.counts(values.torque_n_m);
-        }
-        values
     }
 }

@@ -157,15 +157,20 @@ impl LagMonitor {
         self.config.kind != LagMonitorType::Off
     }
 
-    /// One cycle: reference and actual position in mm, gain of the position controller in 1/s.
+    /// Takes the reference of a cycle in mm; the last cycle of a row is a [step](Self::step).
     #[inline]
-    pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
-        let delay = self.config.delay_cycles;
-        for i in (0..=delay).rev() {
+    pub(crate) fn remember(&mut self, reference_mm: f64) {
+        for i in (0..=self.config.delay_cycles).rev() {
             self.past_mm[i + 1] = self.past_mm[i];
         }
         self.past_mm[0] = reference_mm;
-        let commanded = self.past_mm[delay];
+    }
+
+    /// One cycle: reference and actual position in mm, gain of the position controller in 1/s.
+    #[inline]
+    pub fn step(&mut self, reference_mm: f64, actual_mm: f64, kv_per_s: f64) -> Option<Fault> {
+        self.remember(reference_mm);
+        let commanded = self.past_mm[self.config.delay_cycles];
         self.lag_mm = commanded - actual_mm;
         if self.config.kind == LagMonitorType::Off {
             self.rests = true;

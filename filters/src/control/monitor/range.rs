@@ -31,6 +31,12 @@ impl RangeMonitor {
         self.beyond = self.limit_passed(position_mm).is_some();
     }
 
+    /// The actual positions in mm, from the first to the last one, that raise nothing; `None` while the axis is beyond them.
+    pub(crate) fn inside_mm(&self) -> Option<(f64, f64)> {
+        let (low, high) = self.range_mm.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        (!self.beyond).then_some((low - ROUNDING_MM, high + ROUNDING_MM))
+    }
+
     fn limit_passed(&self, actual_mm: f64) -> Option<f64> {
         let (low, high) = self.range_mm?;
         match actual_mm {

@@ -130,19 +130,28 @@ impl SetpointMonitor {
         if self.raised {
             return 0;
         }
-        let [mut p1, p2, p3] = self.past_mm;
-        let mut d2 = [p1 - p2, p2 - p3];
         let [v, a, j] = self.good_mm;
-        let loud = |set_mm: &f64| {
-            let d1 = set_mm - p1;
-            let good = d1.abs() <= v
-                && (d1 - d2[0]).abs() <= a
-                && (d1 - 2.0 * d2[0] + d2[1]).abs() <= j
-                && set_mm.abs() <= RANGE_MM;
-            (p1, d2) = (*set_mm, [d1, d2[0]]);
-            !good
+        // the last one of four successive set positions
+        let good = |w: &[f64]| {
+            let (d1, d2, d3) = (w[3] - w[2], w[2] - w[1], w[1] - w[0]);
+            (d1.abs() <= v)
+                & ((d1 - d2).abs() <= a)
+                & ((d1 - 2.0 * d2 + d3).abs() <= j)
+                & (w[3].abs() <= RANGE_MM)
         };
-        set_mm.iter().position(loud).unwrap_or(set_mm.len())
+        let [p1, p2, p3] = self.past_mm;
+        let first = set_mm.len().min(3);
+        let mut early = [p3, p2, p1, 0.0, 0.0, 0.0];
+        early[3..3 + first].copy_from_slice(&set_mm[..first]);
+        if let Some(loud) = early[..3 + first].windows(4).position(|w| !good(w)) {
+            return loud;
+        }
+        let mut later = set_mm.windows(4);
+        // asked without branches, several at a time; most rows are good as a whole
+        if later.clone().fold(true, |all, w| all & good(w)) {
+            return set_mm.len();
+        }
+        later.position(|w| !good(w)).map_or(set_mm.len(), |loud| first + loud)
     }
 
     /// Processes cycles that certainly raise nothing.

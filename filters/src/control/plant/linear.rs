@@ -65,17 +65,17 @@ impl States for Vec<f64> {
 #[derive(Clone, Debug)]
 pub(super) struct LinearPlant<S: States> {
     /// Columns of the matrices.
-    phi: S::Square,
-    gamma: [S; INPUTS],
-    positions: [S; 3],
-    speeds: [S; 3],
-    state: S,
+    pub(super) phi: S::Square,
+    pub(super) gamma: [S; INPUTS],
+    pub(super) positions: [S; 3],
+    pub(super) speeds: [S; 3],
+    pub(super) state: S,
     next: S,
-    base_mm: f64,
-    disturbance: Option<Disturbance>,
+    pub(super) base_mm: f64,
+    pub(super) disturbance: Option<Disturbance>,
     substep_s: f64,
     substeps: u32,
-    cycles: u64,
+    pub(super) cycles: u64,
     cycle: CycleTime,
     /// Whether the load can move relative to the motor, and the tool point relative to the load.
     elastic: bool,
@@ -86,7 +86,7 @@ impl<S: States> LinearPlant<S> {
     /// Substeps per cycle while a force acts inside the cycle.
     const SUBSTEPS: u32 = 4;
     /// States below this magnitude are set to zero, to keep decaying vibrations out of the denormal range.
-    const NEGLIGIBLE: f64 = 1e-200;
+    pub(super) const NEGLIGIBLE: f64 = 1e-200;
 
     pub(super) fn new(
         model: &Continuous,

@@ -58,7 +58,7 @@ pub struct Measured {
 
 impl Measured {
     #[inline]
-    pub(super) fn rigid(position_mm: f64, speed_mm_s: f64) -> Self {
+    pub(crate) fn rigid(position_mm: f64, speed_mm_s: f64) -> Self {
         Self {
             motor_mm: position_mm,
             motor_mm_s: speed_mm_s,

@@ -5,6 +5,7 @@
 
 use super::linear::LinearPlant;
 use super::quantities::{Measured, PlantInput};
+use super::rigid::RigidRow;
 use super::{Dynamics, Plant};
 
 /// Where the plant is while its axis runs through a row of cycles. `own` is the plant in the axis.
@@ -60,6 +61,20 @@ impl<const N: usize> PlantOfRow for Apart<N> {
     #[inline]
     fn advance(&mut self, _: &mut Plant, input: PlantInput) -> bool {
         self.linear.advance(&input, &mut self.rests, &mut self.measured)
+    }
+}
+
+impl<const N: usize> Apart<N> {
+    /// The same plant in motion under this acceleration by a force in mm/s2, if all its measured points move as one.
+    pub(crate) fn rigid_row(&self, force_mm_s2: f64) -> Option<RigidRow<N>> {
+        self.linear.rigid_row(&self.measured, force_mm_s2)
+    }
+
+    /// Takes the state of that plant after a number of cycles.
+    pub(crate) fn take(&mut self, row: &RigidRow<N>, cycles: usize) {
+        self.linear.take(row, cycles);
+        self.measured = Measured::rigid(row.motor_mm, row.motor_mm_s);
+        self.rests = false;
     }
 }
 

@@ -3,7 +3,7 @@
 use super::AxisChain;
 use crate::machine::AdditionalInterface;
 use crate::record::{Asked, AxisColumns, AxisRecord, Quantity};
-use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput};
+use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput, Shown};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::ring::Ring;
 use kontur_filters::shaping;
@@ -96,14 +96,14 @@ impl AxisChain {
         let shown_from = if shown.is_some() { 0 } else { last.saturating_sub(1) };
         let mut faulty = false;
         let mut act = [end.record.act; 2];
-        let count = control.run(set, gain, jerk_limited, shown_from, |i, out| {
+        let count = control.run(set, gain, jerk_limited, shown_from, |i, cycle| {
             if let Some(shown) = &mut shown {
-                shown.put(i, &out);
+                shown.put(i, cycle);
             }
-            act = [act[1], out.act_mm];
-            if i == last || out.faulty {
-                faulty |= out.faulty;
-                end.put(i, &out);
+            act = [act[1], cycle.act_mm];
+            if i == last || cycle.faulty {
+                faulty |= cycle.faulty;
+                end.put(i, &cycle.output());
             }
         });
         let mut derived = end.derived;
@@ -267,18 +267,18 @@ impl<'a> ShownControl<'a> {
         Some(Self { positions, control, drive, columns })
     }
 
-    #[inline] // the output is large: used where it is made
-    fn put(&mut self, i: usize, out: &ControlOutput) {
+    #[inline]
+    fn put(&mut self, i: usize, cycle: &Shown<'_>) {
         if self.positions {
             let [reference, act, load, lag, settling, ..] = &mut self.columns;
-            reference[i] = out.reference_mm;
-            act[i] = out.act_mm;
-            load[i] = out.load_mm;
-            lag[i] = out.lag_mm;
-            settling[i] = out.settling_s;
+            reference[i] = cycle.reference_mm;
+            act[i] = cycle.act_mm;
+            load[i] = cycle.load_mm;
+            lag[i] = cycle.lag_mm;
+            settling[i] = cycle.settling_s();
         }
         if self.control || self.drive {
-            self.put_others(i, out);
+            self.put_others(i, &cycle.output());
         }
     }
 
