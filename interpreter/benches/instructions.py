@@ -21,13 +21,14 @@ from pathlib import Path
 
 from peers import ROOT, write_programs
 
+QUIET = ["--summary", "none"]
 # words of the command line for each case, behind the program
 CASES = {
     "check": None,
-    "run": [],
-    "deviation": ["-o", "{}/trace.csv", "--signals", "contour_err_mm", "--decimate", "1000000000"],
-    "csv": ["-o", "{}/trace.csv"],
-    "parquet": ["-o", "{}/trace.parquet"],
+    "run": QUIET,
+    "deviation": [*QUIET, "-o", "{}/trace.csv", "--signals", "contour_err_mm", "--decimate", "1000000000"],
+    "csv": [*QUIET, "-o", "{}/trace.csv"],
+    "parquet": [*QUIET, "-o", "{}/trace.parquet"],
     "summary": ["--summary", "text"],
 }
 
@@ -35,7 +36,7 @@ CASES = {
 def counted(kontur, program, case, folder, inside):
     """Instructions in all and by function, of one run."""
     more = CASES[case]
-    words = ["check", program] if more is None else ["run", program, "--max-time", "1e6", "--summary", "none", *more]
+    words = ["check", program] if more is None else ["run", program, "--max-time", "1e6", *more]
     words = [str(word).format(folder) for word in words]
     out = folder / "callgrind.out"
     command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", kontur, *words]
@@ -63,7 +64,7 @@ def main():
     asked = arguments.parse_args()
     kontur = asked.kontur
     if kontur is None:
-        environment = {**os.environ, "CARGO_PROFILE_RELEASE_LTO": "off", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "16"}
+        environment = {**os.environ, "CARGO_PROFILE_RELEASE_LTO": "off"}
         subprocess.run(["cargo", "build", "--release", "-p", "kontur"], cwd=ROOT, check=True, env=environment)
         kontur = ROOT / "target/release/kontur"
     with tempfile.TemporaryDirectory() as name:

@@ -48,7 +48,8 @@ use crate::time::CycleTime;
 pub use config::{AxisControlConfig, Encoder};
 pub use given::AxisInputs;
 use given::Given;
-pub use shown::Shown;
+use shown::CalmCycle;
+pub use shown::{CalmCycles, Show, Shown};
 use std::sync::Arc;
 
 /// Values in the drive's format, in counts unless the name says otherwise.
@@ -133,6 +134,8 @@ pub struct AxisControl {
     /// Inputs of the last cycle, and the number of cycles in which they have been the same without any effect.
     given: Given,
     still_cycles: u32,
+    /// Memory for the calm cycles of a row.
+    calm: Vec<CalmCycle>,
 }
 
 impl AxisControl {
@@ -178,6 +181,7 @@ impl AxisControl {
             held_mm: None,
             given: Given::default(),
             still_cycles: 0,
+            calm: Vec::new(),
         };
         control.start(0.0);
         Ok(control)

@@ -2,6 +2,7 @@
 //! also with faults in the middle of rows.
 
 use super::rest::{configs, stretches};
+use kontur_filters::control::axis_control::Shown;
 use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput};
 use kontur_filters::kernel::{Kernel, KernelFilter, Tap};
 use kontur_filters::stage::Stage;
@@ -19,14 +20,16 @@ fn run(
 ) -> (usize, Vec<(usize, ControlOutput)>) {
     let before = axis.clone();
     let mut shown = Vec::new();
-    let mut count =
-        axis.run(row, gain, jerk_limited, shown_from, |i, of| shown.push((i, of.output())));
+    let mut count = axis.run(row, gain, jerk_limited, shown_from, |i: usize, of: &Shown<'_>| {
+        shown.push((i, of.output()));
+    });
     while count < row.len() {
         *axis = before.clone();
         shown.clear();
-        let again = axis.run(&row[..count], gain, jerk_limited, shown_from, |i, of| {
-            shown.push((i, of.output()));
-        });
+        let again =
+            axis.run(&row[..count], gain, jerk_limited, shown_from, |i: usize, of: &Shown<'_>| {
+                shown.push((i, of.output()));
+            });
         if again == count {
             break;
         }

@@ -95,14 +95,26 @@ impl LinePath {
         } else if s >= self.length {
             out.copy_from_slice(&self.end);
         } else {
-            let n = out.len();
-            let (start, end) = (&self.start[..n], &self.end[..n]);
-            let direction = &self.direction[..n];
-            for i in 0..n {
-                // an axis that does not move keeps its exact bits
-                let at_rest = start[i].to_bits() == end[i].to_bits();
-                out[i] = if at_rest { start[i] } else { start[i] + s * direction[i] };
+            // the numbers of axes that occur have loops of known length
+            match out.len() {
+                2 => self.inside(s, &mut out[..2]),
+                3 => self.inside(s, &mut out[..3]),
+                4 => self.inside(s, &mut out[..4]),
+                _ => self.inside(s, out),
             }
+        }
+    }
+
+    /// As [`Self::position`], between start and end.
+    #[inline]
+    fn inside(&self, s: f64, out: &mut [f64]) {
+        let n = out.len();
+        let (start, end) = (&self.start[..n], &self.end[..n]);
+        let direction = &self.direction[..n];
+        for i in 0..n {
+            // an axis that does not move keeps its exact bits
+            let at_rest = start[i].to_bits() == end[i].to_bits();
+            out[i] = if at_rest { start[i] } else { start[i] + s * direction[i] };
         }
     }
 

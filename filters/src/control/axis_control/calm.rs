@@ -7,14 +7,9 @@
 
 use super::AxisControl;
 use super::cycle::Row;
-use super::shown::{Seen, Shown};
+use super::shown::{CalmCycle, CalmCycles, Show};
 use crate::control::{
-    buffer::SetpointBuffer,
-    feedforward::FeedforwardOutput,
-    ipc::IpcOutput,
-    monitor::LagMonitor,
-    plant::{Apart, Measured},
-    position::PositionLoop,
+    buffer::SetpointBuffer, monitor::LagMonitor, plant::Apart, position::PositionLoop,
 };
 
 /// The input of the position controller in the cycles of a row.
@@ -73,7 +68,7 @@ impl AxisControl {
         &mut self,
         row: &Row<'_>,
         apart: &mut Apart<N>,
-        show: &mut impl FnMut(usize, &Shown<'_>),
+        show: &mut impl Show,
     ) -> usize {
         let (inputs, kv_per_s) = (self.inputs, self.config.position.kv_per_s);
         let Some(bounds) = self.bounds() else { return 0 };
@@ -92,7 +87,9 @@ impl AxisControl {
             (self.given.set, self.buffer.reference_mm());
         let mut tcp_mm_s = self.tcp_mm_s;
         let mut count = 0;
-        for (i, set_mm) in row.set_mm[..row.set_mm.len() - 1].iter().enumerate() {
+        let (mut cycles, mut before_mm_s) = (std::mem::take(&mut self.calm), tcp_mm_s);
+        let most = row.set_mm.len() - 1;
+        for (i, set_mm) in row.set_mm[..most].iter().enumerate() {
             let (motor_mm, motor_mm_s) = (plant.motor_mm, plant.motor_mm_s);
             let actual_mm = motor_mm + inputs.encoder_offset_mm;
             let reference_mm = references.mm(i);
@@ -112,23 +109,27 @@ impl AxisControl {
             if !calm || !plant.advance(felt(command_mm_s)) {
                 break;
             }
+            if i <= row.shown_from {
+                before_mm_s = tcp_mm_s;
+            }
             if i >= row.shown_from {
-                let seen = Seen {
+                cycles.push(CalmCycle {
                     reference_mm,
                     actual_mm,
-                    measured: Measured::rigid(motor_mm, motor_mm_s),
-                    tcp_before_mm_s: tcp_mm_s,
-                    feedforward: FeedforwardOutput::default(),
+                    motor_mm,
+                    motor_mm_s,
                     command_mm_s,
-                    additive: IpcOutput::default(),
-                    faulty: false,
-                };
-                show(i, &Shown::of(self, seen));
+                });
             }
             (set_before, reference_before_mm) = (set_mm.to_bits(), reference_mm);
             tcp_mm_s = motor_mm_s;
             count = i + 1;
         }
+        if !cycles.is_empty() {
+            show.calm(row.shown_from, &CalmCycles { axis: self, cycles: &cycles, before_mm_s });
+            cycles.clear();
+        }
+        self.calm = cycles;
         if count > 0 {
             apart.take(&plant, count);
             self.pass(&references, count, tcp_mm_s);

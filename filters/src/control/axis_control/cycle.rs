@@ -1,7 +1,7 @@
 //! One cycle of an axis, or many in a row: from the set position to the drive, the monitors and the plant.
 
 use super::given::Given;
-use super::shown::{Seen, Shown};
+use super::shown::{Seen, Show, Shown};
 use super::{AxisControl, ControlOutput, Encoder};
 use crate::control::RANGE_MM;
 use crate::control::{
@@ -55,7 +55,9 @@ impl AxisControl {
     #[inline] // the output is large: used where it is made
     pub fn step(&mut self, set_mm: f64, gain: f64, jerk_limited: bool) -> ControlOutput {
         let mut output = ControlOutput::default();
-        self.run(&[set_mm], gain, jerk_limited, 0, |_, shown| output = shown.output());
+        self.run(&[set_mm], gain, jerk_limited, 0, |_: usize, shown: &Shown<'_>| {
+            output = shown.output();
+        });
         output
     }
 
@@ -72,7 +74,7 @@ impl AxisControl {
         gain: f64,
         jerk_limited: bool,
         shown_from: usize,
-        mut show: impl FnMut(usize, &Shown<'_>),
+        mut show: impl Show,
     ) -> usize {
         self.faults.clear();
         let set_by_set = !self.exact_stop.rests();
@@ -123,7 +125,7 @@ impl AxisControl {
         row: &Row<'_>,
         first: usize,
         mut plant: P,
-        show: &mut impl FnMut(usize, &Shown<'_>),
+        show: &mut impl Show,
     ) -> (usize, P) {
         let Row { gain, jerk_limited, shown_from, .. } = *row;
         let count = row.set_mm.len();
@@ -220,7 +222,7 @@ impl AxisControl {
                     additive,
                     faulty,
                 };
-                show(i, &Shown::of(self, seen));
+                show.cycle(i, &Shown::of(self, &seen));
             }
             if faulty {
                 self.given = given;

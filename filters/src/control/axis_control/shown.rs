@@ -1,9 +1,9 @@
-//! What a cycle shows: its positions, which most traces consist of, and on request everything else.
+//! What a cycle shows: its positions, which most traces consist of, and on request everything else. Calm cycles show them together.
 
 use super::{AxisControl, ControlOutput, DriveValues, Encoder};
 use crate::control::{feedforward::FeedforwardOutput, ipc::IpcOutput, plant::Measured};
 
-/// A cycle of a row, see [`AxisControl::run`].
+/// A cycle of a row.
 #[derive(Debug)]
 pub struct Shown<'a> {
     /// As in [`ControlOutput`].
@@ -25,6 +25,99 @@ pub struct Shown<'a> {
     additive: IpcOutput,
 }
 
+/// What receives the cycles of a row, see [`AxisControl::run`]; a closure receives one after the other.
+pub trait Show {
+    /// Cycle number `i` of the row.
+    fn cycle(&mut self, i: usize, cycle: &Shown<'_>);
+
+    /// Consecutive cycles, from number `first` on.
+    fn calm(&mut self, first: usize, cycles: &CalmCycles<'_>) {
+        for i in 0..cycles.len() {
+            self.cycle(first + i, &cycles.get(i));
+        }
+    }
+}
+
+impl<F: FnMut(usize, &Shown<'_>)> Show for F {
+    fn cycle(&mut self, i: usize, cycle: &Shown<'_>) {
+        self(i, cycle);
+    }
+}
+
+/// Consecutive cycles of a rigid drive without feedforward and additive speed.
+#[derive(Debug)]
+pub struct CalmCycles<'a> {
+    pub(super) axis: &'a AxisControl,
+    pub(super) cycles: &'a [CalmCycle],
+    /// Speed of the motor in the cycle before the first one.
+    pub(super) before_mm_s: f64,
+}
+
+/// What differs from one of these cycles to the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CalmCycle {
+    pub(super) reference_mm: f64,
+    pub(super) actual_mm: f64,
+    pub(super) motor_mm: f64,
+    pub(super) motor_mm_s: f64,
+    pub(super) command_mm_s: f64,
+}
+
+impl CalmCycles<'_> {
+    /// Number of cycles.
+    pub fn len(&self) -> usize {
+        self.cycles.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.cycles.is_empty()
+    }
+
+    /// Reference, actual position, position of the load and following error of each cycle in mm, as in [`ControlOutput`].
+    pub fn positions_mm(&self) -> impl ExactSizeIterator<Item = [f64; 4]> {
+        self.cycles.iter().map(|cycle| {
+            let [act_mm, load_mm] =
+                self.axis.shown_mm(cycle.actual_mm, cycle.motor_mm, cycle.motor_mm);
+            [cycle.reference_mm, act_mm, load_mm, cycle.reference_mm - cycle.actual_mm]
+        })
+    }
+
+    /// As in [`ControlOutput`], the same in all of them.
+    #[inline]
+    pub fn settling_s(&self) -> f64 {
+        self.axis.exact_stop.settling_s()
+    }
+
+    /// One of the cycles.
+    pub fn get(&self, i: usize) -> Shown<'_> {
+        let cycle = self.cycles[i];
+        let before = i.checked_sub(1).map(|i| self.cycles[i].motor_mm_s);
+        let seen = Seen {
+            reference_mm: cycle.reference_mm,
+            actual_mm: cycle.actual_mm,
+            measured: Measured::rigid(cycle.motor_mm, cycle.motor_mm_s),
+            tcp_before_mm_s: before.unwrap_or(self.before_mm_s),
+            feedforward: FeedforwardOutput::default(),
+            command_mm_s: cycle.command_mm_s,
+            additive: IpcOutput::default(),
+            faulty: false,
+        };
+        Shown::of(self.axis, &seen)
+    }
+}
+
+impl AxisControl {
+    /// Position of the motor encoder and of the load, where the position loop sees one of them as `actual_mm`.
+    #[inline]
+    fn shown_mm(&self, actual_mm: f64, motor_mm: f64, load_mm: f64) -> [f64; 2] {
+        match self.config.encoder {
+            Encoder::Motor => [actual_mm, load_mm],
+            Encoder::Direct => [motor_mm, actual_mm],
+        }
+    }
+}
+
 /// The values of a cycle.
 pub(super) struct Seen {
     pub(super) reference_mm: f64,
@@ -40,12 +133,9 @@ pub(super) struct Seen {
 
 impl<'a> Shown<'a> {
     #[inline]
-    pub(super) fn of(axis: &'a AxisControl, seen: Seen) -> Self {
-        let Seen { reference_mm, actual_mm, measured, .. } = seen;
-        let (act_mm, load_mm) = match axis.config.encoder {
-            Encoder::Motor => (actual_mm, measured.load_mm),
-            Encoder::Direct => (measured.motor_mm, actual_mm),
-        };
+    pub(super) fn of(axis: &'a AxisControl, seen: &Seen) -> Self {
+        let Seen { reference_mm, actual_mm, measured, .. } = *seen;
+        let [act_mm, load_mm] = axis.shown_mm(actual_mm, measured.motor_mm, measured.load_mm);
         Self {
             reference_mm,
             act_mm,

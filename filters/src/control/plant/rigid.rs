@@ -31,19 +31,18 @@ impl<const N: usize> RigidRow<N> {
     #[inline(always)]
     pub(crate) fn advance(&mut self, command_mm_s: f64) -> bool {
         let mut next = self.first;
-        for row in 0..N {
-            for i in 1..N {
-                next[row] += self.phi[i][row] * self.state[i];
+        for (row, sum) in next.iter_mut().enumerate() {
+            for (column, state) in self.phi.iter().zip(&self.state).skip(1) {
+                *sum += column[row] * state;
             }
-            next[row] += self.gamma[row] * command_mm_s;
-            next[row] += self.last[row];
+            *sum += self.gamma[row] * command_mm_s;
+            *sum += self.last[row];
         }
         let base_mm = self.base_mm + next[0];
         let mut motor_mm_s = self.first_mm_s;
-        for i in 1..N {
-            next[i] =
-                if next[i].abs() < LinearPlant::<[f64; N]>::NEGLIGIBLE { 0.0 } else { next[i] };
-            motor_mm_s += self.speed[i] * next[i];
+        for (next, share) in next.iter_mut().zip(&self.speed).skip(1) {
+            *next = if next.abs() < LinearPlant::<[f64; N]>::NEGLIGIBLE { 0.0 } else { *next };
+            motor_mm_s += share * *next;
         }
         // all terms of a position are 0, the first one without a sign
         let motor_mm = base_mm + 0.0;

@@ -3,7 +3,9 @@
 use super::AxisChain;
 use crate::machine::AdditionalInterface;
 use crate::record::{Asked, AxisColumns, AxisRecord, Quantity};
-use kontur_filters::control::axis_control::{AxisControl, AxisInputs, ControlOutput, Shown};
+use kontur_filters::control::axis_control::{
+    AxisControl, AxisInputs, CalmCycles, ControlOutput, Show, Shown,
+};
 use kontur_filters::control::fault::Faults;
 use kontur_filters::ring::Ring;
 use kontur_filters::shaping;
@@ -91,21 +93,13 @@ impl AxisChain {
         self.show(ipo, set, additional_mm, &mut columns);
         let Self { control, ipo: past, delay, cycle_s, .. } = self;
         let derived = Derived::new(set, [self.set, self.vel, self.acc], *cycle_s);
-        let mut end = End { ipo, past, delay: *delay, derived, additional_mm, record };
-        let mut shown = ShownControl::of(&mut columns, ipo.len());
+        let end = End { ipo, past, delay: *delay, derived, additional_mm, record };
+        let shown = ShownControl::of(&mut columns, ipo.len());
         let shown_from = if shown.is_some() { 0 } else { last.saturating_sub(1) };
-        let mut faulty = false;
-        let mut act = [end.record.act; 2];
-        let count = control.run(set, gain, jerk_limited, shown_from, |i, cycle| {
-            if let Some(shown) = &mut shown {
-                shown.put(i, cycle);
-            }
-            act = [act[1], cycle.act_mm];
-            if i == last || cycle.faulty {
-                faulty |= cycle.faulty;
-                end.put(i, &cycle.output());
-            }
-        });
+        let act = [end.record.act; 2];
+        let mut seen = Seen { shown, end, act, last, faulty: false };
+        let count = control.run(set, gain, jerk_limited, shown_from, &mut seen);
+        let Seen { end, act, faulty, .. } = seen;
         let mut derived = end.derived;
         let [vel, acc, _] = derived.at(last);
         (self.set, self.vel, self.acc) = (set[last], vel, acc);
@@ -202,7 +196,41 @@ impl AxisChain {
     }
 }
 
-/// The record of the last cycle of a row. Apart from the closure that every cycle calls, so that this stays small.
+/// What a row leaves of its cycles.
+struct Seen<'a> {
+    shown: Option<ShownControl<'a>>,
+    end: End<'a>,
+    /// Actual positions of the last two cycles.
+    act: [f64; 2],
+    last: usize,
+    faulty: bool,
+}
+
+impl Show for &mut Seen<'_> {
+    #[inline]
+    fn cycle(&mut self, i: usize, cycle: &Shown<'_>) {
+        if let Some(shown) = &mut self.shown {
+            shown.put(i, cycle);
+        }
+        self.act = [self.act[1], cycle.act_mm];
+        if i == self.last || cycle.faulty {
+            self.faulty |= cycle.faulty;
+            self.end.put(i, &cycle.output());
+        }
+    }
+
+    fn calm(&mut self, first: usize, cycles: &CalmCycles<'_>) {
+        if let Some(shown) = &mut self.shown {
+            shown.put_calm(first, cycles);
+        }
+        let newest = cycles.len().saturating_sub(2);
+        for [_, act_mm, ..] in cycles.positions_mm().skip(newest) {
+            self.act = [self.act[1], act_mm];
+        }
+    }
+}
+
+/// The record of the last cycle of a row.
 struct End<'a> {
     ipo: &'a [f64],
     /// Interpolated setpoints up to the last one of the row.
@@ -279,6 +307,23 @@ impl<'a> ShownControl<'a> {
         }
         if self.control || self.drive {
             self.put_others(i, &cycle.output());
+        }
+    }
+
+    /// Calm cycles, from number `first` on.
+    fn put_calm(&mut self, first: usize, cycles: &CalmCycles<'_>) {
+        if self.positions {
+            let [reference, act, load, lag, settling, ..] = &mut self.columns;
+            let settling_s = cycles.settling_s();
+            for (i, positions_mm) in (first..).zip(cycles.positions_mm()) {
+                [reference[i], act[i], load[i], lag[i]] = positions_mm;
+                settling[i] = settling_s;
+            }
+        }
+        if self.control || self.drive {
+            for i in 0..cycles.len() {
+                self.put_others(first + i, &cycles.get(i).output());
+            }
         }
     }
 
