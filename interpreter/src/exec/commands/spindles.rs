@@ -15,7 +15,7 @@ use crate::syntax::ast::{ItemKind, ItemValue, Span};
 pub(super) const MAIN_SPINDLE: Row = Row::run("MAIN SPINDLE", main_spindle).several().values()
     .form("#MAIN SPINDLE [name|logical number]   #MAIN SPINDLE")
     .meaning("makes another spindle of the channel the main spindle, addressed by S and M3 to M19")
-    .note("without a bracket: the spindle of P-CHAN-00051; speeds and rotation of every spindle stay as they are")
+    .note("without a bracket: the spindle of P-CHAN-00051; speeds and rotation of every spindle stay as they are; not in tapping or under G96")
     .example("#MAIN SPINDLE [S2]")
     .related(&["M03", "P-CHAN-00051", "P-CHAN-00053"]);
 
@@ -25,8 +25,7 @@ fn main_spindle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     match (&call.command.groups[..], &call.command.arguments[..]) {
         ([], []) => {
             let index = listed_main(&decoder.motion.spindles, &decoder.machine);
-            decoder.motion.spindles.swap(0, index);
-            Ok(())
+            change(decoder, index, call.span())
         }
         ([group], []) => {
             let [item] = &group.items[..] else {
@@ -57,10 +56,17 @@ fn main_spindle(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 let text = "#MAIN SPINDLE: the channel has no such spindle";
                 return Err(Fault::new(Condition::MainSpindleUnknown, text, item.span).hint(hint));
             };
-            // the main spindle is the first in the list
-            decoder.motion.spindles.swap(0, index);
-            Ok(())
+            change(decoder, index, item.span)
         }
         _ => Err(wrong("#MAIN SPINDLE needs one spindle in brackets, or nothing", call.span())),
     }
+}
+
+/// Makes a spindle the main one, which is the first in the list.
+fn change(decoder: &mut Decoder, index: usize, span: Span) -> Outcome<()> {
+    if index != 0 {
+        decoder.motion.keeps_main_spindle(&decoder.modal, span)?;
+        decoder.motion.spindles.swap(0, index);
+    }
+    Ok(())
 }

@@ -108,6 +108,11 @@ impl Spindle {
         self.rpm.abs() * self.override_ratio
     }
 
+    /// Speed in rev/min, negative for M4.
+    pub(in crate::exec) fn signed_rpm(&self) -> f64 {
+        if self.turning == Turning::CounterClockwise { -self.rpm.abs() } else { self.rpm.abs() }
+    }
+
     /// Whether an override changes the programmed speed.
     pub(in crate::exec) fn is_overridden(&self) -> bool {
         self.override_ratio.to_bits() != 1.0_f64.to_bits()

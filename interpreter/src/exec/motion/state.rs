@@ -308,8 +308,9 @@ pub(in crate::exec) struct Threads {
     pub(in crate::exec::motion) cutting: bool,
     /// The previous block of a chain.
     pub(super) last: Option<Box<Block>>,
-    /// Speed of the spindle in the previous block of G33 in rev/min, and its pitch in mm.
-    pub(super) rpm: f64,
+    /// The spindle of the previous block of G33 and its speed in rev/min, negative for M4.
+    pub(super) turned: Option<(usize, f64)>,
+    /// The pitch of that block in mm.
     pub(super) cut_mm: f64,
     /// State of `#TURN`.
     pub(in crate::exec) turning: TurningModes,

@@ -129,6 +129,19 @@ impl MotionState {
         }
     }
 
+    /// Refuses another main spindle where something depends on the present one: the pages do not say which of the two it then
+    /// follows.
+    pub(in crate::exec) fn keeps_main_spindle(&self, modal: &Modal, span: Span) -> Outcome<()> {
+        let what = if modal.path.is_tapping() {
+            "another main spindle while the spindle turns with the path (tapping)"
+        } else if self.cutting.is_on() {
+            "another main spindle under G96"
+        } else {
+            return Ok(());
+        };
+        Err(Fault::unsupported(what, span))
+    }
+
     /// Functions that cannot be combined with threads.
     fn thread_fits(
         &self,
@@ -153,6 +166,11 @@ impl MotionState {
         self.no_spindle_override("a thread", span)?;
         self.no_tool_limit("a thread", 0, span)?;
         if modal.path == PathMode::Thread {
+            if self.cutting.is_on() {
+                // the page does not say whether the path follows the changing speed
+                let what = "a thread (G33) with constant cutting speed (G96)";
+                return Err(Fault::unsupported(what, span).hint("write G97 before it"));
+            }
             return Ok(());
         }
         if modal.feed_type == FeedType::PerRevolution {

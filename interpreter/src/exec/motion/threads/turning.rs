@@ -25,7 +25,9 @@ const SHORT: f64 = 1.0 - 1e-6;
 /// A block of G33.
 struct Cut<'a> {
     block: &'a Block,
-    /// Speed of the spindle in rev/min.
+    /// Index of the spindle.
+    spindle: usize,
+    /// Speed of the spindle in rev/min, negative for M4.
     rpm: f64,
     pitch_mm: f64,
     /// Place of its start angle.
@@ -59,7 +61,7 @@ impl Threads {
             report.note(Fault::new(Condition::ThreadBroken, text, cut.span).hint(hint));
         }
         self.last = self.turning.chain.then(|| Box::new(cut.block.clone()));
-        self.rpm = cut.rpm;
+        self.turned = Some((cut.spindle, cut.rpm));
         self.cut_mm = cut.pitch_mm;
         Ok(())
     }
@@ -75,8 +77,12 @@ impl Threads {
         unit_mm: f64,
         report: &mut Report,
     ) -> Outcome<()> {
-        if cut.rpm.to_bits() != self.rpm.to_bits() {
-            let what = "a chain of threads in which the spindle speed changes";
+        let same = |(spindle, rpm): (usize, f64)| {
+            spindle == cut.spindle && rpm.to_bits() == cut.rpm.to_bits()
+        };
+        if !self.turned.is_some_and(same) {
+            let what =
+                "a chain of threads in which the spindle, its speed or its direction changes";
             return Err(Fault::unsupported(what, cut.span));
         }
         if let Some(at) = cut.offset {
@@ -147,7 +153,8 @@ impl Decoder {
         }
         let cut = Cut {
             block: &block,
-            rpm: self.motion.spindles[0].rpm,
+            spindle: index,
+            rpm: self.motion.spindles[0].signed_rpm(),
             pitch_mm,
             offset: offset.map(|(_, _, at)| *at),
             span,
