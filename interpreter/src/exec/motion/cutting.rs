@@ -48,42 +48,45 @@ impl MotionState {
     pub(in crate::exec) fn spindle_rpm(&self, coordinates: &Coordinates, machine: &Machine) -> f64 {
         match self.cutting.speed {
             Some(cutting) => {
-                let held = cutting.held_mm.map(|x| x - cutting.centre_mm);
-                cutting.rpm(held.unwrap_or_else(|| coordinates.turning_distance(cutting.axis)))
+                let at_mm = cutting.held_mm.unwrap_or(coordinates.target()[cutting.axis]);
+                cutting.rpm(at_mm - cutting.centre_mm)
             }
             None => self.spindles[0].rpm.abs().min(self.spindles[0].most_rpm(machine)),
         }
     }
 
     /// Passes the state to the simulation.
-    fn report_cutting_speed(&mut self, coordinates: &Coordinates, contour: &mut Contour) {
-        let Some(mut cutting) = self.cutting.speed else { return };
-        cutting.centre_mm = coordinates.turning_centre(cutting.axis);
-        self.cutting.speed = Some(cutting);
-        if let Some(spindle) = self.spindles[0].index {
+    fn report_cutting_speed(&self, contour: &mut Contour) {
+        if let (Some(cutting), Some(spindle)) = (self.cutting.speed, self.spindles[0].index) {
             contour.event(Event::CuttingSpeed { spindle, cutting: Some(cutting) });
         }
     }
 
     /// Called before a motion with a known target. Offsets may have moved the turning centre, and rapid blocks keep the speed
     /// of their start position.
+    ///
+    /// # Errors
+    /// K-0019: a rotated system.
     pub(in crate::exec) fn follow_turning_centre(
         &mut self,
         start: &AxisVec,
         coordinates: &Coordinates,
         modal: &Modal,
         contour: &mut Contour,
-    ) {
+        span: Span,
+    ) -> Outcome<()> {
         let rapid = modal.path == PathMode::Rapid;
-        let Some(cutting) = &mut self.cutting.speed else { return };
+        let Some(cutting) = &mut self.cutting.speed else { return Ok(()) };
         let (axis, known) = (cutting.axis, cutting.centre_mm);
         let changes = rapid != cutting.held_mm.is_some();
         if changes {
             cutting.held_mm = rapid.then(|| start[axis]);
         }
-        if changes || (coordinates.turning_centre(axis) - known).abs() > 1e-9 {
-            self.report_cutting_speed(coordinates, contour);
+        cutting.centre_mm = centre(coordinates, axis, span)?;
+        if changes || (cutting.centre_mm - known).abs() > 1e-9 {
+            self.report_cutting_speed(contour);
         }
+        Ok(())
     }
 
     /// G96, G97 and G196 with the S word of their block.
@@ -174,12 +177,12 @@ impl MotionState {
         };
         let cutting = CuttingSpeed {
             axis,
-            centre_mm: 0.0,
+            centre_mm: centre(&geometry.coordinates, axis, at)?,
             speed_mm_min: written * unit_mm,
             max_rpm: self.cutting.rpm_max.map_or(most, |rpm| rpm.min(most)),
             held_mm: None,
         };
-        let radius = geometry.coordinates.turning_distance(axis);
+        let radius = geometry.coordinates.target()[axis] - cutting.centre_mm;
         if cutting.speed_mm_min / (std::f64::consts::TAU * radius.abs())
             > cutting.max_rpm * (1.0 + 1e-9)
         {
@@ -195,9 +198,17 @@ impl MotionState {
         }
         self.spindles[0].rpm = cutting.rpm(radius);
         self.cutting.speed = Some(cutting);
-        self.report_cutting_speed(&geometry.coordinates, output.contour);
+        self.report_cutting_speed(output.contour);
         Ok(())
     }
+}
+
+/// Position of the face turning axis in mm with its tool at the turning centre.
+fn centre(coordinates: &Coordinates, axis: usize, span: Span) -> Outcome<f64> {
+    coordinates.turning_centre(axis).ok_or_else(|| {
+        let what = "a constant cutting speed (G96) whose face turning axis is rotated";
+        Fault::unsupported(what, span)
+    })
 }
 
 impl Geometry {

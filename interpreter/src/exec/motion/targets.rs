@@ -162,7 +162,8 @@ impl Decoder {
             &self.geometry.coordinates,
             &self.modal,
             &mut self.contour,
-        );
+            words.axes.first().map_or_else(Span::default, |(_, _, at)| *at),
+        )?;
         Ok(start)
     }
 }

@@ -157,14 +157,17 @@ impl Coordinates {
         self.change(axis, |layer| layer.preset[axis] = value_mm);
     }
 
-    /// Programmed distance of an axis from the turning centre in mm.
-    pub(in crate::exec) fn turning_distance(&self, axis: usize) -> f64 {
+    /// Position of an axis in mm with its tool at the turning centre: the programmed coordinate and its G92 offset are 0
+    /// there. `None` where rotation makes other axes part of the coordinate.
+    ///
+    /// Assumption: other offsets move the centre where they are programmed, although the axis itself follows only when it
+    /// is programmed next; the tool is as far from the workpiece in both blocks.
+    pub(in crate::exec) fn turning_centre(&self, axis: usize) -> Option<f64> {
         let presets = self.active.systems.iter().map(|layer| layer.preset[axis]).sum::<f64>();
-        self.programmed(axis) + self.active.lowest.preset[axis] + presets
-    }
-
-    /// Machine position of the turning centre in mm.
-    pub(in crate::exec) fn turning_centre(&self, axis: usize) -> f64 {
-        self.target[axis] - self.turning_distance(axis)
+        let offset = self.active_offset(axis) - self.active.lowest.preset[axis];
+        let Some(main) = self.main_index(axis) else { return Some(offset - presets) };
+        let row = self.frame.m[main];
+        let is_rotated = (0..3).any(|i| i != main && row[i] != 0.0);
+        (!is_rotated).then(|| offset + self.frame.t[main] - row[main] * presets)
     }
 }
