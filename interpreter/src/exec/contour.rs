@@ -4,6 +4,7 @@ pub(super) mod akima;
 pub(super) mod bottleneck;
 pub(super) mod compensation;
 pub(super) mod contouring;
+mod cutting_feed;
 mod feed_course;
 mod guarded;
 pub(super) mod insertion;
@@ -30,7 +31,7 @@ use kontur_motion::path::Path;
 use passing::Passing;
 use std::collections::VecDeque;
 
-pub(super) use feed_course::{PIECES_MAX, STEP};
+pub(super) use cutting_feed::CuttingFeed;
 pub(super) use guarded::{Guarded, violated};
 pub(super) use motion::{
     Compensated, Corner, CornerFeed, Driven, FeedCourse, Motion, PathOf, local_ends,

@@ -1,7 +1,9 @@
-//! Feed rates that change along a motion: corner deceleration (G13) and interpolation of the feed rate (G193, G293).
+//! Feed rates that change along a motion: corner deceleration (G13), interpolation of the feed rate (G193, G293), and feed rates
+//! per revolution under a constant cutting speed (G95 under G96).
 //!
 //! A motion is divided where its feed rate has changed by one percent. Each piece has the lower of the feed rates at its ends,
-//! so that the path is never faster than the printed line. The path with tool radius compensation is divided.
+//! so that the path is never faster than the printed line; under G95, their mean. The path with tool radius compensation is
+//! divided. The pieces are one motion: G116 stops at its ends alone.
 //!
 //! Source: TF5200 programming manual 206444555, 206449675 (G13: linear along the corrected path, slope STEP only, from the
 //! first motion after G13 on), 15556679307 (G193: linear along the path; G293: linear over the time, slope STEP).
@@ -11,13 +13,15 @@
 
 use super::item::Item;
 use super::motion::{Corner, CornerFeed, FeedCourse, Motion};
-use kontur_motion::block::{Block, Feed};
+use kontur_motion::block::{Block, ChannelDynamics, Feed};
+use kontur_motion::path::Path;
+use std::sync::Arc;
 
-/// Ratio of the speeds of two consecutive pieces of a motion whose speed changes along it (G13, G193, G95, G96).
-pub(in crate::exec) const STEP: f64 = 1.01;
+/// Ratio of the speeds of two consecutive pieces of a motion whose speed changes along it.
+pub(super) const STEP: f64 = 1.01;
 
 /// Maximum number of pieces of one motion: a speed range of 1 to 20,000; for a larger range the pieces are coarser.
-pub(in crate::exec) const PIECES_MAX: u32 = 1000;
+pub(super) const PIECES_MAX: u32 = 1000;
 
 /// The part of a motion with a changing feed rate.
 struct Change {
@@ -43,6 +47,7 @@ impl Change {
             }
             FeedCourse::OverPath(from) => (from, false),
             FeedCourse::OverTime(from) => (from, true),
+            FeedCourse::PerRevolution(_) => return None,
         };
         Some(Self { at: [0.0, length], feed: [from, feed], over_time })
     }
@@ -65,33 +70,54 @@ impl Change {
     }
 }
 
+/// Ends and feed rates of the pieces of a path; `None` if the feed rate is constant.
+fn divided(course: FeedCourse, feed: f64, path: &Path) -> Option<Vec<(f64, f64)>> {
+    if let FeedCourse::PerRevolution(course) = course {
+        return course.pieces(path);
+    }
+    let change = Change::of(course, feed, path.length())?;
+    let mut ends = vec![(change.at[0], feed)];
+    ends.extend(change.pieces());
+    Some(ends)
+}
+
 /// The pieces of a motion; it is not divided if its feed rate is constant.
 pub(super) fn pieces(motion: Box<Motion>) -> Vec<Item> {
     let (Some(course), Feed::PathVelocity(feed)) = (motion.course, motion.block.feed) else {
         return vec![Item::Motion(motion)];
     };
-    let Some(change) = Change::of(course, feed, motion.block.path.length()) else {
+    let Some(ends) = divided(course, feed, &motion.block.path) else {
         return vec![Item::Motion(motion)];
     };
-    let mut ends = vec![(change.at[0], feed)];
-    ends.extend(change.pieces());
+    let last = ends.last().map_or(0.0, |(to, _)| *to);
+    let inside = inside(&motion.block.dynamics);
     let mut pieces = Vec::with_capacity(ends.len());
     let mut from = 0.0;
     for (to, feed) in ends {
         if to <= from {
             continue;
         }
-        let Some(path) = motion.block.path.section(from, to) else {
+        let block = &motion.block;
+        let Some(path) = block.path.section(from, to) else {
             return vec![Item::Motion(motion)];
         };
-        let is_last = to >= change.at[1];
-        let block = &motion.block;
-        let end_velocity_mm_s = block.end_velocity_mm_s.filter(|_| is_last);
+        let end_velocity_mm_s = block.end_velocity_mm_s.filter(|_| to >= last);
         let feed = Feed::PathVelocity(feed);
-        let block = Box::new(Block { path, feed, end_velocity_mm_s, ..(**block).clone() });
-        let events = if pieces.is_empty() { motion.events.clone() } else { Vec::new() };
+        let is_first = pieces.is_empty();
+        let dynamics = Arc::clone(if is_first { &block.dynamics } else { &inside });
+        let block =
+            Box::new(Block { path, feed, end_velocity_mm_s, dynamics, ..(**block).clone() });
+        let events = if is_first { motion.events.clone() } else { Vec::new() };
         pieces.push(Item::Motion(Box::new(Motion { block, events, ..(*motion).clone() })));
         from = to;
     }
     if pieces.is_empty() { vec![Item::Motion(motion)] } else { pieces }
+}
+
+/// The limits of the pieces after the first one: the transition to them is none of the program (G116).
+fn inside(dynamics: &Arc<ChannelDynamics>) -> Arc<ChannelDynamics> {
+    if !dynamics.stop_at_transitions {
+        return Arc::clone(dynamics);
+    }
+    Arc::new(ChannelDynamics { stop_at_transitions: false, ..(**dynamics).clone() })
 }

@@ -9,7 +9,7 @@
 //! motion, also rapid; the English page names that motion, an older German one the motion before.
 
 use crate::diag::Condition;
-use crate::exec::contour::motion::Motion;
+use crate::exec::contour::motion::{FeedCourse, Motion};
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::planar::{Side, cut, intersections, swept};
 use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
@@ -136,12 +136,31 @@ pub(in crate::exec) fn between(
     }
     inserted.block.path = element;
     inserted.compensation.clone_from(&before.compensation);
-    inserted.course = None;
+    inserted.course = course_of_element(before, after, insertion)?;
     // E belongs to the end of its own block
     inserted.block.end_velocity_mm_s = None;
     inserted.events = std::mem::take(&mut after.events);
     inserted.block.feed = insertion.feed.unwrap_or(feed);
     Ok(Some(Inserted { motion: Box::new(inserted), leaves }))
+}
+
+/// The change of the feed rate along the element: under G95 and G96 it follows the speed of the spindle, unless the element has
+/// a feed rate of its own.
+fn course_of_element(
+    before: &Motion,
+    after: &Motion,
+    insertion: &Insertion,
+) -> Outcome<Option<FeedCourse>> {
+    let follows = |course: &FeedCourse| matches!(course, FeedCourse::PerRevolution(_));
+    let own = insertion.feed.is_some() || before.block.end_velocity_mm_s.is_some();
+    let Some(course) = after.course.filter(|course| follows(course) && !own) else {
+        return Ok(None);
+    };
+    if after.block.contour.is_some() || after.block.spline.is_some() {
+        let what = "a chamfer or rounding with contouring or splines, G95 and G96";
+        return Err(Fault::unsupported(what, insertion.span));
+    }
+    Ok(Some(course))
 }
 
 /// Ends of a chamfer at a distance from the corner, on an arc as a chord.

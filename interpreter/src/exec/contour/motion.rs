@@ -1,5 +1,6 @@
 //! A programmed motion as it passes through the stages of the contour.
 
+use super::cutting_feed::CuttingFeed;
 use super::guarded::Guarded;
 use crate::exec::block::choice::Selection;
 use crate::exec::step::{Event, SourceRef};
@@ -73,6 +74,8 @@ pub(in crate::exec) enum FeedCourse {
     OverPath(f64),
     /// G293: from this feed in mm/s, above 0, linearly over the time.
     OverTime(f64),
+    /// G95 under G96.
+    PerRevolution(CuttingFeed),
 }
 
 /// `#CORNER PARAM`.

@@ -1,8 +1,7 @@
 //! Turning with a constant cutting speed: G96, G97, G196.
 //!
 //! The simulation computes the speed in every cycle from the distance between tool and turning centre; in rapid blocks the
-//! spindle keeps its speed. A feed rate per revolution (G95) follows the speed: a motion of the face turning axis is divided
-//! into pieces between which the speed changes by one percent.
+//! spindle keeps its speed. A feed rate per revolution (G95) follows the speed.
 //!
 //! Assumption: the turning centre is where the programmed coordinate of the face turning axis and its G92 offset are 0.
 //!
@@ -10,14 +9,16 @@
 //! P-AXIS-00015; 20633, 20642, 20643, 50182, 120167, 120169.
 
 use crate::diag::{Condition, ValueKind, rounded};
-use crate::exec::block::choice::{PathMode, Plane};
+use crate::exec::block::choice::{FeedType, PathMode, Plane};
 use crate::exec::block::collected::Words;
 use crate::exec::block::groups::{Act, Group};
 use crate::exec::block::modal::Modal;
-use crate::exec::contour::{Contour, PIECES_MAX, STEP};
+use crate::exec::contour::{Contour, CuttingFeed, FeedCourse};
+use crate::exec::decoder::Decoder;
 use crate::exec::fault::{Fault, Outcome};
 use crate::exec::geometry::Geometry;
 use crate::exec::geometry::coordinates::Coordinates;
+use crate::exec::motion::plane::InPlane;
 use crate::exec::motion::state::MotionState;
 use crate::exec::names::AxisNames;
 use crate::exec::output::Output;
@@ -27,7 +28,8 @@ use crate::machine::Machine;
 use crate::machine::table::axis_general;
 use crate::syntax::ast::Span;
 use kontur_motion::axis::AxisVec;
-use kontur_motion::path::{LinePath, Path};
+use kontur_motion::block::Feed;
+use kontur_motion::path::Path;
 
 /// mm in a foot.
 const FOOT_MM: f64 = 304.8;
@@ -259,58 +261,57 @@ impl Geometry {
     }
 }
 
-/// The pieces of a straight motion within which G95 under G96 has the same feed rate, with the speed of each; a single one if
-/// the speed does not change.
-pub(super) fn pieces(
-    cutting: CuttingSpeed,
-    path: &Path,
-    feed_axes: &[bool],
-    span: Span,
-) -> Outcome<Vec<(Path, f64)>> {
-    let Path::Line(_) = path else {
-        return Err(Fault::unsupported("an arc with G95 under G96", span));
-    };
-    let at = |share: f64| {
-        let (a, b) = (path.start(), path.end());
-        let point = a.iter().zip(b.iter()).map(|(a, b)| a + (b - a) * share);
-        point.collect::<AxisVec>()
-    };
-    let radius = |share: f64| {
-        let (a, b) = (path.start()[cutting.axis], path.end()[cutting.axis]);
-        a + (b - a) * share - cutting.centre_mm
-    };
-    let mut pieces = Vec::new();
-    let (mut from, mut start) = (0.0, path.start().clone());
-    for _ in 0..PIECES_MAX {
-        // the largest share of the path at which the speed is still within one step
-        let rpm = cutting.rpm(radius(from));
-        let same = |share: f64| {
-            let other = cutting.rpm(radius(share));
-            other <= rpm * STEP && other * STEP >= rpm
+impl Decoder {
+    /// G95 under G96: the mean feed rate of a motion, and how it follows the speed of the spindle; `None` in other modes.
+    ///
+    /// # Errors
+    /// K-0019: the feed rate changes along the motion, and the corner at one of its ends is to be rounded, or its path is that
+    /// of tool radius compensation.
+    pub(super) fn cutting_feed(
+        &self,
+        path: &Path,
+        feed: Feed,
+        rounds: bool,
+        in_plane: &InPlane,
+        span: Span,
+    ) -> Outcome<Option<(Feed, FeedCourse)>> {
+        let per_revolution = self.modal.feed_type == FeedType::PerRevolution;
+        let other = feed == Feed::Rapid || self.motion.measuring.feed.is_some();
+        let Some(mut cutting) = self.motion.cutting.speed.filter(|_| per_revolution && !other)
+        else {
+            return Ok(None);
         };
-        let (mut low, mut high) = (from, 1.0);
-        // beyond the turning centre the speed decreases again: both halves are divided separately
-        let centre = -radius(0.0) / (radius(1.0) - radius(0.0));
-        if centre > from && centre < 1.0 {
-            high = centre;
+        let Some(word) = self.modal.feed().filter(|word| word.value > 0.0) else { return Ok(None) };
+        cutting.centre_mm -= self.motion.independent.way[cutting.axis];
+        let way_mm = word.value * word.unit_mm(&self.machine, path);
+        let course = CuttingFeed { cutting, way_mm };
+        let Some(pieces) = course.pieces(path) else {
+            return Err(Fault::unsupported("such a range of speeds with G95 under G96", span));
+        };
+        let beside = if in_plane.compensation.is_some() {
+            "tool radius compensation"
+        } else if pieces.len() == 1 {
+            ""
+        } else if rounds
+            || self.contour.hsc.contour().is_some()
+            || self.contour.has_contoured_corner()
+        {
+            "contouring"
+        } else if self.contour.hsc.spline().is_some() {
+            "splines"
+        } else {
+            ""
+        };
+        if !beside.is_empty() {
+            let what = format!("G95 under G96 with {beside}");
+            return Err(Fault::unsupported(what, span));
         }
-        if same(high) {
-            low = high;
+        let (mut from, mut time_s) = (0.0, 0.0);
+        for (to, mm_s) in pieces {
+            time_s += (to - from) / mm_s;
+            from = to;
         }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if same(middle) { low = middle } else { high = middle }
-        }
-        let to = if low > from { low } else { 1.0 };
-        let end = if to < 1.0 { at(to) } else { path.end().clone() };
-        let mean = (cutting.rpm(radius(from)) * cutting.rpm(radius(to))).sqrt();
-        if let Some(line) = LinePath::new(start, end.clone(), feed_axes) {
-            pieces.push((Path::Line(line), mean));
-        }
-        (from, start) = (to, end);
-        if from >= 1.0 {
-            return Ok(pieces);
-        }
+        let mean = Feed::PathVelocity(path.length() / time_s);
+        Ok(Some((mean, FeedCourse::PerRevolution(course))))
     }
-    Err(Fault::unsupported("such a range of speeds with G95 under G96", span))
 }

@@ -20,14 +20,6 @@ use kontur_motion::path::Path;
 const END_FEED: &str = "write G94 and a motion at feed rate: G94 G01 X10 F2000 E500";
 
 impl Modal {
-    /// G95 at a spindle speed in rev/min.
-    pub(super) fn feed_per_revolution(&self, machine: &Machine, path: &Path, rpm: f64) -> Feed {
-        per_revolution(
-            self.feed().map_or(0.0, |word| word.value * word.unit_mm(machine, path)),
-            rpm,
-        )
-    }
-
     pub(super) fn end_velocity(
         &self,
         (value, span): Placed,
@@ -132,15 +124,10 @@ impl MotionState {
                     let text = format!("feed per revolution, but the main spindle {what}");
                     return Err(Fault::new(condition, text, span));
                 }
-                per_revolution(value * unit_mm, rpm)
+                Feed::PathVelocity(value * unit_mm * rpm / 60.0)
             }
         })
     }
-}
-
-/// A distance in mm per revolution at a speed in rev/min.
-fn per_revolution(way_mm: f64, rpm: f64) -> Feed {
-    Feed::PathVelocity(way_mm * rpm / 60.0)
 }
 
 /// Reports a time (G93) that the limits of the axes do not allow; the limits apply.

@@ -74,7 +74,10 @@ impl Decoder {
         }
         let beside = if self.modal.feed_type != FeedType::PerMinute {
             "G93, G95 or G194"
-        } else if rounds || self.contour.hsc.contour().is_some() {
+        } else if rounds
+            || self.contour.hsc.contour().is_some()
+            || self.contour.has_contoured_corner()
+        {
             "contouring"
         } else if self.contour.akima.selected || self.contour.hsc.spline().is_some() {
             "splines"

@@ -1,6 +1,5 @@
 //! A motion on the path: targets, path, feed and limits become a block for the planner.
 
-use super::cutting;
 use super::feed;
 use super::plane::InPlane;
 use crate::diag::Condition;
@@ -260,6 +259,10 @@ impl Decoder {
         let shaped = rounds || hsc.0.is_some() || hsc.1.is_some() || self.contour.akima.selected;
         self.motion.areas.fit(shaped, &self.names, span)?;
         let in_plane = self.geometry.in_plane(&self.modal, &self.motion, span)?;
+        let (feed, course) = match self.cutting_feed(&path, feed, rounds, &in_plane, span)? {
+            Some((mean, follows)) => (mean, Some(follows)),
+            None => (feed, course),
+        };
         if self.contour.akima.selected {
             self.contour.spline_stands_alone(rounds, span)?;
             self.motion.spline_fits(rapid, &self.geometry.coordinates, &self.modal, span)?;
@@ -287,10 +290,6 @@ impl Decoder {
             tangential: false,
         });
         feed::check_time(&block, at, &mut self.report);
-        let per_revolution = self.modal.feed_type == FeedType::PerRevolution && !rapid;
-        if per_revolution && self.motion.cutting.speed.is_some() {
-            return self.send_pieces(&block, &in_plane, span);
-        }
         self.send(block, in_plane, course, span);
         Ok(())
     }
@@ -354,25 +353,6 @@ impl Decoder {
             limits.check(&path, place, &mut self.report, span);
         }
         Ok(Some(path))
-    }
-
-    /// A motion with G95 under G96: its feed rate changes with the speed of the spindle.
-    fn send_pieces(&mut self, block: &Block, in_plane: &InPlane, span: Span) -> Outcome<()> {
-        if in_plane.compensation.is_some() {
-            let what = "G95 under G96 with tool radius compensation";
-            return Err(Fault::unsupported(what, span));
-        }
-        let Some(cutting) = self.motion.cutting.speed else { return Ok(()) };
-        for (path, rpm) in
-            cutting::pieces(cutting, &block.path, self.motion.limits.feed_axes(), span)?
-        {
-            let feed = self.modal.feed_per_revolution(&self.machine, &path, rpm);
-            let block = Box::new(Block { path, feed, ..block.clone() });
-            let InPlane { plane, tilt, .. } = in_plane;
-            let in_plane = InPlane { plane: *plane, tilt: tilt.clone(), compensation: None };
-            self.send(block, in_plane, None, span);
-        }
-        Ok(())
     }
 
     /// Passes a motion on.

@@ -1,5 +1,5 @@
 //! Feed rates that change along a motion, against the formulas of the manual: G13 and G193 linear along the path, G293 linear
-//! over time.
+//! over time; G95 under G96 by the speed of the spindle.
 
 use super::clean;
 use kontur_motion::block::Feed;
@@ -127,6 +127,46 @@ fn inches_do_not_scale_the_feed_of_rotary_axes() {
             assert!((inch - 25.4 * mm).abs() < 1e-9 * inch, "{rest}: {inch} {mm}");
             let ends = end.zip(end_mm).is_none_or(|(a, b)| (a - 25.4 * b).abs() < 1e-9 * a);
             assert!(ends && end.is_some() == end_mm.is_some(), "{rest}");
+        }
+    }
+}
+
+/// G95 under G96: along lines and arcs the feed rate is way times speed, n = v / (2 pi x), up to half a step of one percent;
+/// the pieces join, and a rounding between two motions follows the speed as well.
+#[test]
+fn the_feed_per_revolution_follows_the_cutting_speed() {
+    let head = "G18 G00 X40 Z0\nM3 G96 S100\nG95 F0.2\n";
+    for motion in [
+        "G01 X20 Z-5",
+        "G91 G01 Z-5 X-25",
+        "G02 X30 Z-10 R10",
+        "G03 X30 Z-10 R10",
+        "G02 X40 Z0 I-6 K8",
+        "G01 X20 Z-5 #RND 2\nX20 Z-20",
+        "G01 X20 Z-5 #CHR 2\nX20 Z-20",
+        "G92 X10\nG01 X20 Z-5",
+        "G351 X-1\nG01 X-20 Z-5",
+        "X[SET_POSITION POS=30]\nG01 X20 Z-5",
+    ] {
+        let run = super::run_on(&["X.kenngr.achs_mode=0x41"], &format!("{head}{motion}\nM30\n"));
+        assert!(run.ids().is_empty(), "{motion}: {:?}", run.ids());
+        let blocks = &run.blocks()[1..];
+        assert!(blocks.len() > 20, "{motion}: {}", blocks.len());
+        let mut at = vec![0.0; blocks[0].path.start().len()];
+        // the path does not contain the position that is set
+        let shift = if motion.contains("POS=30") { -10.0 } else { 0.0 };
+        for (i, block) in blocks.iter().enumerate() {
+            let Feed::PathVelocity(v) = block.feed else { panic!("{:?}", block.feed) };
+            for share in 0..=8 {
+                block.path.position(block.path.length() * f64::from(share) / 8.0, &mut at);
+                let rpm = 100_000.0 / (std::f64::consts::TAU * (at[0] + shift).abs());
+                let ratio = v / (0.2 * rpm / 60.0);
+                assert!((ratio - 1.0).abs() < 0.00501, "{motion}: {ratio} at {at:?}");
+            }
+            if let Some(next) = blocks.get(i + 1) {
+                let (end, start) = (block.path.end(), next.path.start());
+                assert!(end.iter().zip(start.iter()).all(|(a, b)| (a - b).abs() < 1e-9));
+            }
         }
     }
 }
