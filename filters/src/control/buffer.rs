@@ -111,8 +111,12 @@ impl SetpointBuffer {
         self.without_gain = if has_gain { 0 } else { self.without_gain.saturating_add(1) };
     }
 
-    /// Takes the setpoints of consecutive cycles without feedforward.
-    pub(crate) fn pass(&mut self, positions_mm: impl DoubleEndedIterator<Item = f64>) {
+    /// Takes the setpoints of consecutive cycles without feedforward, of slopes with limited jerk or without.
+    pub(crate) fn pass(
+        &mut self,
+        positions_mm: impl DoubleEndedIterator<Item = f64>,
+        jerk_limited: bool,
+    ) {
         // earlier ones would be overwritten
         let mut newest = [0.0; Self::CAPACITY];
         let mut count = 0;
@@ -121,7 +125,7 @@ impl SetpointBuffer {
             count += 1;
         }
         for position_mm in newest[..count].iter().rev() {
-            self.push(Setpoint { position_mm: *position_mm, ..Setpoint::default() });
+            self.push(Setpoint { position_mm: *position_mm, gain: 0.0, jerk_limited });
         }
     }
 

@@ -3,7 +3,11 @@
 
 use super::rest::{configs, stretches};
 use kontur_filters::control::axis_control::Shown;
-use kontur_filters::control::{AxisControl, AxisInputs, ControlOutput};
+use kontur_filters::control::monitor::LagMonitorType;
+use kontur_filters::control::plant::PlantModel;
+use kontur_filters::control::{
+    AxisControl, AxisControlConfig, AxisInputs, ControlOutput, FeedforwardMode,
+};
 use kontur_filters::kernel::{Kernel, KernelFilter, Tap};
 use kontur_filters::stage::Stage;
 use kontur_filters::time::CycleTime;
@@ -90,6 +94,45 @@ proptest! {
                 prop_assert_eq!(single.faults(), rows.faults());
                 prop_assert_eq!(single.distance_mm().to_bits(), rows.distance_mm().to_bits());
                 left = &left[count..];
+            }
+        }
+    }
+
+    /// Rows without feedforward before cycles with it, on a rigid drive that nothing else acts on: the setpoints that the first
+    /// window with feedforward holds have the slope that they were made with.
+    #[test]
+    fn feedforward_behind_a_row_knows_its_slope(
+        delay_cycles in 0..4_usize,
+        mode in prop::sample::select(&[1_u16, 2, 3][..]),
+        jerk_limited in any::<bool>(),
+        (speed, steeper) in (0.01..0.2_f64, 0.0..1e-3_f64),
+        length in 8..60_usize,
+    ) {
+        let mut config = AxisControlConfig::new(1e4, 1e9, 1e12);
+        config.position.kv_per_s = 50.0;
+        config.feedforward.mode = FeedforwardMode::from_bits_truncate(mode);
+        config.lag.kind = LagMonitorType::Off;
+        config.plant.model = PlantModel::FirstOrder { time_constant_s: 0.005 };
+        config.plant.dead_time_cycles = 0;
+        config.delay_cycles = delay_cycles;
+        let mut single = AxisControl::new(config, CycleTime::DEFAULT).unwrap();
+        let mut rows = single.clone();
+        let mut set_mm = 0.0;
+        for part in 0..6_u32 {
+            let gain = f64::from(part % 2);
+            let path: Vec<f64> = (0..length)
+                .map(|k| {
+                    // the motion before ends with the row, and the first windows with feedforward contain that end
+                    let moves = gain.to_bits() == 0 || k > 4;
+                    set_mm += if moves { speed + steeper * k as f64 } else { 0.0 };
+                    set_mm
+                })
+                .collect();
+            let (count, shown) = run(&mut rows, &path, gain, jerk_limited, 0);
+            prop_assert_eq!(count, length);
+            for (x, (_, seen)) in path.iter().zip(shown) {
+                let output = single.step(*x, gain, jerk_limited);
+                prop_assert_eq!(format!("{seen:?}"), format!("{output:?}"));
             }
         }
     }

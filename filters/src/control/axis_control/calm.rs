@@ -132,20 +132,20 @@ impl AxisControl {
         self.calm = cycles;
         if count > 0 {
             apart.take(&plant, count);
-            self.pass(&references, count, tcp_mm_s);
+            self.pass(row, &references, count, tcp_mm_s);
         }
         count
     }
 
     /// Takes the first cycles of a row, which were calm; `tcp_mm_s` is the speed of the tool point at the start of the last one.
-    fn pass(&mut self, references: &References<'_>, count: usize, tcp_mm_s: f64) {
+    fn pass(&mut self, row: &Row<'_>, references: &References<'_>, count: usize, tcp_mm_s: f64) {
         let last = count - 1;
-        let (set_mm, additional_mm) = (references.set_mm, references.additional_mm);
+        let (set_mm, additional_mm) = (row.set_mm, references.additional_mm);
         let position_mm = |set_mm: &f64| set_mm + additional_mm;
         let before_mm = last.checked_sub(1).map_or(self.position_mm, |i| position_mm(&set_mm[i]));
         (self.set_mm, self.position_mm) = (set_mm[last], position_mm(&set_mm[last]));
         self.moving = (self.position_mm - before_mm).abs() > 0.0;
-        self.buffer.pass(set_mm[..count].iter().map(position_mm));
+        self.buffer.pass(set_mm[..count].iter().map(position_mm), row.jerk_limited);
         // of those before the last ones of the row nothing is remembered
         let from = set_mm.len().saturating_sub(LagMonitor::MEMORY).min(count);
         for i in from..count {

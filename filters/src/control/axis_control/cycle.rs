@@ -18,7 +18,7 @@ use crate::control::{
 pub(super) struct Row<'a> {
     pub(super) set_mm: &'a [f64],
     gain: f64,
-    jerk_limited: bool,
+    pub(super) jerk_limited: bool,
     /// The first cycle whose output is shown.
     pub(super) shown_from: usize,
 }
