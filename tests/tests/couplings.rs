@@ -73,6 +73,30 @@ fn the_path_keeps_the_limits_of_slaves() {
     assert!(coupled > of("Z", contour) + 100);
 }
 
+/// The deviation of a slave is not measured, that of its master is; after it is released, it is an axis of the path again.
+#[test]
+fn followers_are_not_measured() {
+    let guard = "#VIB GUARD ON [MODE=2 FREQ=20]\n";
+    let text = "#SET AX LINK [1, C=X]\n#ENABLE AX LINK [1]\nG01 X20 F3000\nY20\nX0\n\
+                #DISABLE AX LINK\nG01 C40\nY0";
+    let run = go(&[], &format!("{guard}{text}"));
+    let [mut coupled, mut free] = [0, 0];
+    for record in &run.records[1..] {
+        let [x, c] = [0, 2].map(|axis| record.axes[axis].dev);
+        assert!(x.is_finite());
+        match record.line {
+            5..=7 => {
+                assert!(c.is_nan(), "line {}: {c}", record.line);
+                coupled += 1;
+            }
+            _ => free += usize::from(c.is_finite()),
+        }
+    }
+    assert!(coupled > 500 && free > 500, "{coupled} {free}");
+    let dev = run.records.iter().map(|r| r.axes[2].dev.abs()).fold(0.0, f64::max);
+    assert!(dev > 0.01, "{dev}");
+}
+
 /// `SET_POSITION` moves nothing: speeds and lag are those of the same motions without it, and so is the deviation under a Vibration
 /// Guard.
 #[test]

@@ -93,7 +93,8 @@ impl Decoder {
         decoder.report.unplaced.extend(unknown);
         let diagnostics = decoder.shaping.start(&decoder.machine);
         // errors of single filters in the lists are reported, with their position, when the chains are set up
-        let of_several = [Condition::ListFirAndGuard, Condition::UnequalKernels];
+        let of_several =
+            [Condition::ListFirAndGuard, Condition::UnequalKernels, Condition::FollowerNotCovered];
         let of_forced =
             [Condition::GuardMode, Condition::GuardRange, Condition::GuardNotRealisable];
         let told = |d: &Diagnostic| {
@@ -207,6 +208,17 @@ impl Decoder {
         if setup != self.shaping.setup {
             self.shaping.setup = setup.clone();
             self.sync(Sync::Shaping(Box::new(setup)));
+        }
+        self.note_followers(span);
+    }
+
+    /// K-0156 for the slaves of active couplings.
+    pub(super) fn note_followers(&mut self, span: Span) {
+        for pair in self.motion.couplings.pairs() {
+            let found = self.shaping.follower_not_covered(pair, &self.machine);
+            if let Some(found) = found {
+                self.report.note(Fault::of(found, span));
+            }
         }
     }
 }

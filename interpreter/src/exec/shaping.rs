@@ -207,7 +207,24 @@ impl ShapingState {
             worked.setup.axes.push(shaping);
         }
         worked.diagnostics.extend(unequal_delays(&worked.setup, machine));
+        if self.ax_dev_mm.is_some() && worked.setup.axes.iter().any(|a| a.kernel.is_some()) {
+            worked.diagnostics.extend(unequal_bridges(machine));
+        }
         worked
+    }
+
+    /// K-0156 for a slave of an axis coupling under `AX_DEV` whose kernel or standard filters differ from those of its master.
+    pub(super) fn follower_not_covered(
+        &self,
+        (slave, master): (usize, usize),
+        machine: &Machine,
+    ) -> Option<Diagnostic> {
+        self.tolerance().ax_dev_mm?;
+        let kernel = |axis: usize| self.setup.axes.get(axis).map(|shaping| &shaping.kernel);
+        let [slave_axis, master_axis] = [slave, master].map(|axis| &machine.axes[axis]);
+        let alike = kernel(slave) == kernel(master)
+            && slave_axis.has_standard_filters_of(master_axis, machine.cycle);
+        (!alike).then(|| not_covered(slave_axis, master_axis))
     }
 
     fn axis(&self, axis: &Axis, cycle: CycleTime, found: &mut Vec<Diagnostic>) -> AxisShaping {
@@ -277,6 +294,25 @@ fn shaped(settings: ShapingSettings, kernel: Option<Kernel>) -> AxisShaping {
 
 fn with_axis(axis: &Axis, text: &str) -> String {
     format!("axis {}: {text}", axis.name())
+}
+
+/// K-0156.
+fn not_covered(slave: &Axis, master: &Axis) -> Diagnostic {
+    let text = format!(
+        "AX_DEV does not cover axis {}, which follows {} with other filters: how far it leaves the path is not examined",
+        slave.name(),
+        master.name()
+    );
+    Diagnostic::new(Condition::FollowerNotCovered, text).axis(slave.number(), slave.name())
+}
+
+/// K-0156 for gantry slaves: they have the kernel of their master and their own standard filters.
+fn unequal_bridges(machine: &Machine) -> impl Iterator<Item = Diagnostic> {
+    machine.gantry_slaves.iter().filter_map(|slave| {
+        let master = machine.axes.get(machine.master_of(slave)?)?;
+        let alike = slave.has_standard_filters_of(master, machine.cycle);
+        (!alike).then(|| not_covered(slave, master))
+    })
 }
 
 /// Axes of one group are asynchronous if the total delays of their kernels and standard filters differ. Gantry slaves have the

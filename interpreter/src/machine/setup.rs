@@ -148,6 +148,13 @@ impl Axis {
         (1.0 - fed) / config.position.gain_at(speed_mm_s)
     }
 
+    /// Whether the lists of two axes switch the same standard filters on.
+    pub(crate) fn has_standard_filters_of(&self, other: &Self, cycle: CycleTime) -> bool {
+        let [own, others] =
+            [self, other].map(|axis| filters::cascade(axis, cycle, &mut Vec::new()).filters);
+        own == others
+    }
+
     /// Mean delay of the standard filters that the list switches on, in cycles.
     pub(crate) fn standard_filter_delay_cycles(&self, cycle: CycleTime) -> f64 {
         let cascade = filters::cascade(self, cycle, &mut Vec::new());

@@ -32,6 +32,7 @@ impl Simulation {
             }
             Event::Couple { slave, master, ratio, master_mm } => {
                 self.independent.couple(slave, master, ratio, master_mm);
+                self.totals.followers.insert(slave);
             }
             Event::Uncouple { slave } => self.independent.uncouple(slave),
             Event::Wear(setting) => {

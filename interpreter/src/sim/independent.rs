@@ -241,6 +241,11 @@ impl IndependentAxes {
         }
     }
 
+    /// Whether the axis follows another one.
+    pub(super) fn follows(&self, axis: usize) -> bool {
+        self.lanes.get(axis).is_some_and(|lane| lane.coupling.is_some())
+    }
+
     /// Adds the way of the masters to the positions of their slaves; `positions` already contain everything else.
     pub(super) fn follow(&mut self, positions: &mut [f64]) {
         for (axis, lane) in self.lanes.iter_mut().enumerate() {

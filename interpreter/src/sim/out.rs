@@ -10,12 +10,15 @@ use crate::record::{CycleRecord, Quantity, RowBuffer};
 use kontur_motion::axis::AxisVec;
 use kontur_motion::deviation::Unkept;
 use kontur_motion::deviation::{Change, Meter};
+use std::ops::Range;
 
 /// Points of consecutive cycles, and their measured deviation.
 #[derive(Debug, Default)]
 pub(crate) struct Samples {
     /// Number of path axes.
     axes: usize,
+    /// Gantry slaves, which are not measured (indices into the axes of a record).
+    bridges: Range<usize>,
     cycles: Vec<Sample>,
     /// For each cycle, axis by axis: the set points without the ways of independent axes, then the interpolated points.
     /// The results replace them: the shortest vector to the contour, then the larger deviation of both directions.
@@ -49,6 +52,15 @@ struct Sample {
     wanted: Wanted,
     /// Length in mm of the shortest vector from the set point to the contour, once it is measured.
     length_mm: f64,
+    /// Path axes that follow another one, which are not measured; one bit each, for the first 64.
+    followers: u64,
+}
+
+impl Sample {
+    /// Whether an axis has no deviation of its own.
+    fn follows(&self, axis: usize) -> bool {
+        axis < 64 && self.followers >> axis & 1 == 1
+    }
 }
 
 /// The measurement that a cycle requires.
@@ -82,8 +94,15 @@ impl Samples {
                 continue;
             }
             for axis in 0..n {
+                for (i, sample) in measured() {
+                    let dev = self.values[2 * n * i + first + axis];
+                    let dev = if sample.follows(axis) { f64::NAN } else { dev };
+                    *rows.value_mut(axis, quantity, i) = dev;
+                }
+            }
+            for axis in self.bridges.clone() {
                 for (i, _) in measured() {
-                    *rows.value_mut(axis, quantity, i) = self.values[2 * n * i + first + axis];
+                    *rows.value_mut(axis, quantity, i) = f64::NAN;
                 }
             }
         }
@@ -100,6 +119,11 @@ impl Samples {
         let (dev, both_ways) = self.values[2 * n * i..2 * n * (i + 1)].split_at(n);
         for ((axis, dev), both_ways) in record.axes.iter_mut().zip(dev).zip(both_ways) {
             (axis.dev, axis.dev_both_ways) = (*dev, *both_ways);
+        }
+        let followers = (0..n).filter(|axis| sample.follows(*axis)).chain(self.bridges.clone());
+        for axis in followers {
+            let axis = &mut record.axes[axis];
+            (axis.dev, axis.dev_both_ways) = (f64::NAN, f64::NAN);
         }
     }
 
@@ -132,10 +156,12 @@ impl Simulation {
             }
         }
         into.axes = n;
+        into.bridges = n + self.spindles.len()..self.chains.len();
         let first = into.cycles.len();
         // before the first output nothing is measured
         let wanted = |k| if is_measured && k > 0 { Wanted::Unshaped } else { Wanted::Nothing };
-        let sample = |k| Sample { k, at: self.blocks.current, wanted: wanted(k), length_mm: 0.0 };
+        let at = self.blocks.current;
+        let sample = |k| Sample { k, at, wanted: wanted(k), length_mm: 0.0, followers: 0 };
         into.cycles.extend((k..k + count as u64).map(sample));
         let from = into.values.len();
         into.values.resize(from + 2 * n * count, 0.0);
@@ -159,6 +185,10 @@ impl Simulation {
     /// contour, and while one of them moves, it does not count.
     pub(super) fn take_out_ways(&mut self, into: &mut Samples) {
         let n = into.axes;
+        if let Some(sample) = into.cycles.last_mut() {
+            let follows = (0..n.min(64)).filter(|axis| self.independent.follows(*axis));
+            sample.followers = follows.fold(0, |bits, axis| bits | 1 << axis);
+        }
         let last = into.values.len() - 2 * n;
         let (set, path) = into.values[last..].split_at_mut(n);
         for (p, (set, path)) in set.iter_mut().zip(path).enumerate() {

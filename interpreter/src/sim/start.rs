@@ -53,7 +53,12 @@ impl Simulation {
             planner: Planner::new(cycle, window, &start[..n]),
             targets: vec![0.0; chains.len()],
             batch: Batch::default(),
-            totals: Totals { filter_delay_cycles: vec![0.0; chains.len()], ..Totals::default() },
+            totals: Totals {
+                filter_delay_cycles: vec![0.0; chains.len()],
+                // gantry slaves come last
+                followers: (n + spindles.len()..chains.len()).collect(),
+                ..Totals::default()
+            },
             motion: Motion::None,
             is_held: false,
             blocks: BlockRefs::none(chains.len()),

@@ -5,7 +5,7 @@ use crate::exec::{Event, ShapingSettings, ShapingSetup, SourceRef};
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::{Block, Feed};
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// An exact stop of one axis that reached its window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -177,6 +177,9 @@ pub struct Totals {
     pub ideal_duration_s: f64,
     /// Parts that the duration does not include (M functions, tool changes, spindle run-up).
     pub not_counted: Vec<String>,
+    /// Axes (indices into those of a record) that follow another one, at least for a while: their deviation from the contour
+    /// is not measured.
+    pub followers: BTreeSet<usize>,
     /// Largest mean delay of the shaping of each axis in cycles.
     pub filter_delay_cycles: Vec<f64>,
     /// Settings used by the Vibration Guard of an axis (index into the axes of a record), in order of occurrence, at

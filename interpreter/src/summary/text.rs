@@ -146,15 +146,16 @@ impl Summary {
         )?;
         for a in &self.axes {
             let delay_ms = a.filter_delay_cycles * f64::from(self.cycle_us) / 1000.0;
+            let dev = if a.max_dev.is_nan() { "-".into() } else { format!("{:.6}", a.max_dev) };
             writeln!(
                 out,
-                "  {:<6} {:>12.4} {:>12.3} {:>14.1} {:>11.6} {:>11.6} {:>11.6} {:>7.2} ms",
+                "  {:<6} {:>12.4} {:>12.3} {:>14.1} {:>11.6} {:>11} {:>11.6} {:>7.2} ms",
                 format!("{} {}", a.name, a.unit),
                 a.max_vel,
                 a.max_acc,
                 a.max_jerk,
                 a.max_err,
-                a.max_dev,
+                dev,
                 a.max_lag,
                 delay_ms
             )?;

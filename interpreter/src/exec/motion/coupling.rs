@@ -222,6 +222,7 @@ impl Decoder {
         self.motion.couplings.active.push((group, followers));
         self.motion.couplings.last = group;
         self.motion.limits.changed();
+        self.note_followers(span);
         Ok(())
     }
 

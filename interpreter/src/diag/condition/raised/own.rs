@@ -116,6 +116,7 @@ macro_rules! own {
     NoList = Kontur 153 "K-NOLIST": Error JobAbort 3 2, "list cannot be read", cause "a start-up list, or a list that it names, is missing", hint "-m takes a folder with a start-up list, the list itself or a TwinCAT project";
     IndependentInContouring = Kontur 154 "K-INDEPENDENT-IN-CONTOURING": Error ProgramAbort 3 1, "independent axis while polynomial contouring is active (no vendor ID known)", cause "G261, then X[INDP_ASYN ..] or X[OSC ON ..]", hint "end contouring with G260 first, or move the axis with the path";
     CuttingSpeedMaxLate = Kontur 155 "K-LATE-MAXIMUM": Warning None 1 1, "limit of the speed while the cutting speed is constant (no vendor ID known)", cause "G196 after G96: the limit acts from the next S of G96 on", hint "write G196 before G96";
+    FollowerNotCovered = Kontur 156 "K-FOLLOWER": Warning None 1 1, "AX_DEV does not cover an axis that follows another one", cause "a slave of #AX LINK or of a gantry whose filters differ from those of its master", hint "give both axes the same filters: the slave then deviates as its master does, or move the slave with the path instead of coupling it";
     NotAlone = Kontur 157 "K-NOT-ALONE": Warning None 1 1, "another word beside a function that must be alone in its block (no vendor ID known)", cause "G04 X1 F100, G04 1 M5, G351 X-1 F100", hint "write it in a separate block";
         }
     };

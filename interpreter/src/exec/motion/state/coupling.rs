@@ -67,6 +67,11 @@ impl Couplings {
         self.active.iter().flat_map(|(group, all)| all.iter().map(|f| (*group, f)))
     }
 
+    /// The slaves of active groups, each with its master.
+    pub(in crate::exec) fn pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.followers().map(|(_, follower)| (follower.pair.slave, follower.pair.master))
+    }
+
     pub(in crate::exec::motion) fn slaves(&self) -> impl Iterator<Item = usize> {
         self.followers().map(|(_, follower)| follower.pair.slave)
     }
