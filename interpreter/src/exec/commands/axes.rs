@@ -53,10 +53,7 @@ pub(super) fn put(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     } else {
         exchange(decoder, call.span())?;
     }
-    if decoder.modal.diameter.is_some_and(|axis| named.contains(&axis)) {
-        let text = "the face turning axis cannot be released under G51";
-        return Err(Fault::new(Condition::FaceAxisReleased, text, call.span()));
-    }
+    keep_face_axis(decoder, |axis| named.contains(&axis), call.span())?;
     full_feedforward(decoder, &named);
     if all {
         decoder.names.release_all();
@@ -106,7 +103,9 @@ pub(super) fn call(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
-    take_all(decoder, call)
+    let before = main_axes(decoder);
+    take_all(decoder, call)?;
+    keep_face_axis(decoder, |axis| is_elsewhere(decoder, before, axis), call.span())
 }
 
 /// Row of `#SET AX`.
@@ -125,17 +124,20 @@ pub(super) fn set(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     if let Some(word) = call.rest.iter().find(|w| !w.is("FAST")) {
         return Err(call.unexpected(word));
     }
+    let before = main_axes(decoder);
     full_feedforward_of_all(decoder);
     decoder.names.release_all();
     for main in 0..3 {
         decoder.geometry.coordinates.set_main_axis(main, None);
     }
-    take_all(decoder, call)
+    take_all(decoder, call)?;
+    keep_face_axis(decoder, |axis| is_elsewhere(decoder, before, axis), call.span())
 }
 
 /// `#AX DEF DEFAULT`: the set of the channel list.
 pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
     exchange_all(decoder, call.span())?;
+    let before = main_axes(decoder);
     match call.rest {
         [word] if word.is("DEFAULT") => {
             full_feedforward_of_all(decoder);
@@ -148,10 +150,37 @@ pub(super) fn define(decoder: &mut Decoder, call: &Call<'_>) -> Outcome<()> {
                 decoder.geometry.coordinates.set_main_axis(main, axis);
             }
             exchanged(decoder);
-            Ok(())
         }
-        _ => take_all(decoder, call),
+        _ => take_all(decoder, call)?,
     }
+    keep_face_axis(decoder, |axis| is_elsewhere(decoder, before, axis), call.span())
+}
+
+/// The main axes.
+fn main_axes(decoder: &Decoder) -> [Option<usize>; 3] {
+    [0, 1, 2].map(|main| decoder.geometry.coordinates.main_axis(main))
+}
+
+/// Whether an axis that was one of these main axes is not the same one any more.
+fn is_elsewhere(decoder: &Decoder, before: [Option<usize>; 3], axis: usize) -> bool {
+    let place = |axes: [Option<usize>; 3]| axes.iter().position(|main| *main == Some(axis));
+    place(before) != place(main_axes(decoder))
+}
+
+/// The face turning axis of G51 (20546) and of G96 (20641) stays the main axis that it is; `leaves`: whether an axis does not.
+///
+/// Source: TF5200 diagnosis 251825035, 252086155, about `#PUT AX`. Assumption: the other commands may not move it either.
+fn keep_face_axis(decoder: &Decoder, leaves: impl Fn(usize) -> bool, span: Span) -> Outcome<()> {
+    let of_diameters = (decoder.modal.diameter, "G51", Condition::FaceAxisReleased);
+    let of_speed = (decoder.motion.cutting.axis(), "G96", Condition::CuttingAxisReleased);
+    for (axis, function, condition) in [of_diameters, of_speed] {
+        let Some(axis) = axis.filter(|axis| leaves(*axis)) else { continue };
+        let text = format!("the face turning axis cannot be released under {function}");
+        let listed = &decoder.machine.axes[axis];
+        let (number, name) = (listed.number(), listed.name().to_owned());
+        return Err(Fault::new(condition, text, span).with(|d| d.axis(number, name)));
+    }
+    Ok(())
 }
 
 /// `#FGROUP [X, Y]`: the axes to which the feed rate refers; without a bracket those of the channel list.

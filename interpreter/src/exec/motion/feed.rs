@@ -81,7 +81,7 @@ impl MotionState {
         let main = &self.spindles[0];
         if modal.feed_type == FeedType::PerRevolution
             && main.index.is_some()
-            && main.turning == Turning::Stopped
+            && !main.is_turning()
             && self.spindle_rpm(coordinates, output.machine) != 0.0
         {
             let text = "feed per revolution while the main spindle is stopped: its S word is used";

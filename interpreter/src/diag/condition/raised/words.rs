@@ -178,6 +178,7 @@ macro_rules! words {
     TappingPerRevolution = Vendor 20635: Error ProgramAbort 3 1, "tapping with feed per revolution", cause "G63 under G95", hint "write G94 before it";
     TappingCuttingSpeed = Vendor 20636: Error ProgramAbort 3 1, "tapping with constant cutting speed", cause "G63 under G96", hint "write G97 before it";
     TappingWithSpeedLimit = Vendor 20637: Error ProgramAbort 3 1, "tapping and G196 in one block", hint "write G196 in another block";
+    CuttingAxisReleased = Vendor 20641: Error ProgramAbort 3 1, "face turning axis released while the cutting speed is constant", cause "#PUT AX [X] under G96", hint "write G97 first";
     PositioningWithCuttingSpeed = Vendor 20642: Error ProgramAbort 3 1, "M19 with constant cutting speed", cause "M19 under G96", hint "write G97 before it";
     PositioningWithMaximum = Vendor 20643: Error ProgramAbort 3 1, "M19 in a block with G196", cause "G196 S2000 M19", hint "write M19 in a separate block";
     MacroCommand = Vendor 20644: Error ProgramAbort 3 1, "other words beside a macro whose command must be alone in its block", cause "\"M\" G01 X10 with \"M\"=\"#FLUSH WAIT\"", hint "write the macro in a separate block";

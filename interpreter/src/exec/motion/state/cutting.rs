@@ -24,6 +24,11 @@ impl Cutting {
         self.speed.is_some()
     }
 
+    /// The face turning axis of G96.
+    pub(in crate::exec) fn axis(&self) -> Option<usize> {
+        self.speed.map(|cutting| cutting.axis)
+    }
+
     /// S of G196 in rev/min, 0 without one.
     pub(in crate::exec) fn most_rpm(&self) -> f64 {
         self.rpm_max.unwrap_or_default()
