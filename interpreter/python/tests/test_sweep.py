@@ -13,6 +13,7 @@ import pyarrow.dataset
 import pytest
 from conftest import SQUARE
 from kontur import _sweep
+from kontur._words import text_of
 
 GRID = {"X,Y.getriebe[0].kv": [2000, 3000, 4000], "program[7].FREQ": [20, 27.5, "40"]}
 WORDS = ["--vary", "X,Y.getriebe[0].kv=2000,3000,4000", "--vary", "program[7].FREQ=20,27.5,40"]
@@ -34,6 +35,12 @@ def equals(table, text):
                 assert abs(value - float(cell)) <= 0.501 * 10.0 ** -len(cell.partition(".")[2]), (
                     name
                 )
+
+
+def test_numbers_have_no_exponent():
+    """A text with an exponent would be a word in the table of the sweep."""
+    texts = {1e-7: "0.0000001", 1e22: "1" + "0" * 22, 0.1: "0.1", -2.5: "-2.5", 3: "3"}
+    assert {number: text_of(number) for number in texts} == texts
 
 
 def same(a, b):

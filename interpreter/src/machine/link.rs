@@ -23,7 +23,10 @@ struct Named {
     number: u32,
     spindle: bool,
     feed: bool,
+    /// Place of the number.
     at: Option<Location>,
+    /// Place of the name.
+    name_at: Option<Location>,
 }
 
 /// Axes and spindles of the channel list in its order; gantry slaves under the names of their axis lists.
@@ -128,11 +131,8 @@ fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnost
     if given > wanted {
         let message =
             format!("{array}[{}]: {count} is {wanted}, further entries are ignored", given - 1);
-        diagnostics.push(error(
-            Condition::ListCount,
-            message,
-            name_at(given - 1).and_then(|s| s.at.clone()),
-        ));
+        let at = name_at(given - 1).and_then(|s| s.at.clone());
+        diagnostics.push(error(Condition::ListCount, message, at).parameter(count));
     }
     let mut found = Vec::new();
     for i in 0..wanted.min(size) {
@@ -150,9 +150,10 @@ fn group(channel: &Parameters, group: &GroupKeys, diagnostics: &mut Vec<Diagnost
         };
         let value = number.value.number().and_then(whole).unwrap_or_default();
         let at = number.at.clone().or_else(|| name.at.clone());
+        let name_at = name.at.clone();
         let name = usable_name(text, value, spindles, name.at.as_ref(), diagnostics);
         let feed = !spindles && channel.get(of::FEED_AXIS.and(i));
-        found.push(Named { name, number: value, spindle: spindles, feed, at });
+        found.push(Named { name, number: value, spindle: spindles, feed, at, name_at });
     }
     found
 }

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterable, Mapping
+from decimal import Decimal
 from numbers import Real
 from pathlib import Path
 from typing import Any, TypedDict, Union
@@ -51,7 +53,7 @@ _SPANS = frozenset({"range", "window"})
 
 
 def text_of(value: Any) -> str:
-    """A value as written in a list or on the command line, with all digits of a number."""
+    """A value as written in a list or on the command line: all digits of a number, and no exponent, as numbers have none there."""
     if isinstance(value, bool):
         return str(int(value))
     if isinstance(value, str):
@@ -63,7 +65,8 @@ def text_of(value: Any) -> str:
     if isinstance(value, int):
         return str(value)
     if isinstance(value, Real):
-        return repr(float(value))
+        text = repr(float(value))
+        return format(Decimal(text), "f") if math.isfinite(value) else text
     raise TypeError(f"{value!r}: a number or a text is expected")
 
 

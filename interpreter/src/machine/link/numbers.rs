@@ -55,6 +55,7 @@ fn check_names(
         let earlier = &names.named[..i];
         let Named { name, number, .. } = named;
         let mut condition = Condition::ListLink;
+        let mut at = &named.at;
         let problem = if *number == 0 {
             Some(format!("{name}: logical axis number 0 is not allowed"))
         } else if let Some(first) = earlier.iter().find(|n| n.number == *number) {
@@ -70,6 +71,7 @@ fn check_names(
             } else {
                 Condition::PathAxisNameTwice
             };
+            at = &named.name_at;
             Some(format!("the name {name} occurs twice in the channel list"))
         } else if !is_explained
             && !settled.axes.iter().any(|l| logical_number(&l.parameters) == *number)
@@ -79,8 +81,7 @@ fn check_names(
             None
         };
         if let Some(message) = problem {
-            diagnostics
-                .push(error(condition, message, named.at.clone()).axis(*number, name.as_str()));
+            diagnostics.push(error(condition, message, at.clone()).axis(*number, name.as_str()));
         }
     }
 }
