@@ -72,8 +72,8 @@ pub struct AxisSummary {
     pub max_jerk: f64,
     /// Axis error: delay-aligned set minus ipo.
     pub max_err: f64,
-    /// Deviation from the contour; NaN for an axis that follows another one, at least for a while.
-    pub max_dev: f64,
+    /// Deviation from the contour; `None` for an axis that follows another one, at least for a while: it is no part of the contour.
+    pub max_dev: Option<f64>,
     /// Lag: reference minus actual position.
     pub max_lag: f64,
     /// Largest delay of filters or Vibration Guard in cycles.
@@ -306,7 +306,7 @@ impl Collector {
                     max_acc: most.acc,
                     max_jerk: most.jerk,
                     max_err: most.err,
-                    max_dev: if totals.followers.contains(&i) { f64::NAN } else { most.dev },
+                    max_dev: (!totals.followers.contains(&i)).then_some(most.dev),
                     max_lag: most.lag,
                     filter_delay_cycles: totals.filter_delay_cycles.get(i).copied().unwrap_or(0.0),
                     stops: totals.stops.axes.get(&i).map_or(0, |(count, _)| *count),

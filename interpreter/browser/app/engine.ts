@@ -45,7 +45,7 @@ export interface Summary {
   ideal_duration_s: number;
   path_length_mm: number;
   max_contour_error: { mm: number; time_s: number; line: number } | null;
-  axes: { name: string; max_vel: number; max_acc: number; max_jerk: number; max_dev: number; max_lag: number }[];
+  axes: { name: string; max_vel: number; max_acc: number; max_jerk: number; max_dev: number | null; max_lag: number }[];
   time_by_v_limit_s: Record<string, number>;
 }
 

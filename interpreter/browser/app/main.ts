@@ -81,7 +81,7 @@ function numbers(trace: Trace): void {
   const shown: [string, string, string, number, boolean][] = [
     ["Duration", summary.duration_s.toFixed(3), "s", summary.duration_s, false],
     ["Contour error", (1000 * (summary.max_contour_error?.mm ?? 0)).toFixed(2), "µm", 0, false],
-    ["Axis deviation", (1000 * largest((a) => a.max_dev)).toFixed(2), "µm", 0, false],
+    ["Axis deviation", (1000 * largest((a) => a.max_dev ?? 0)).toFixed(2), "µm", 0, false],
     ["Acceleration", largest((a) => a.max_acc).toFixed(0), "mm/s²", 0, false],
     ["Jerk", (largest((a) => a.max_jerk) / 1000).toFixed(0), "m/s³", 0, false],
     ["Following error", (1000 * largest((a) => a.max_lag)).toFixed(1), "µm", 0, false],

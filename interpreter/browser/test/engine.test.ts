@@ -171,7 +171,7 @@ describe("controls", () => {
     const controls: Controls = { ...DEFAULTS, guard: true, bounded: true, ax_dev_mm: 0.005 };
     const free = run(SAMPLES[0]?.program ?? "", { settings: settings(controls) });
     const bound = run(SAMPLES[0]?.program ?? "", { settings: settings(controls), ax_dev_mm: tolerance(controls) });
-    const deviation = (r: RunResult) => Math.max(...(r.finished.summary?.axes ?? []).map((a) => a.max_dev));
+    const deviation = (r: RunResult) => Math.max(...(r.finished.summary?.axes ?? []).map((a) => a.max_dev ?? 0));
     expect(deviation(free)).toBeGreaterThan(0.05);
     expect(deviation(bound)).toBeLessThanOrEqual(0.005);
   });

@@ -22,7 +22,7 @@ const OF_AXIS: [OfAxis; 6] = [
     ("acc", "_s2", |a| a.max_acc, 4),
     ("jerk", "_s3", |a| a.max_jerk, 2),
     ("err", "", |a| a.max_err, 7),
-    ("dev", "", |a| a.max_dev, 7),
+    ("dev", "", |a| a.max_dev.unwrap_or(f64::NAN), 7),
     ("lag", "", |a| a.max_lag, 7),
 ];
 

@@ -82,7 +82,7 @@ impl Summary {
         }
         // the set points may follow a contour of which they leave out a part; and a component can exceed the
         // shortest vector if it belongs to a slightly longer one
-        let deviation = self.axes.iter().map(|axis| axis.max_dev).fold(0.0, f64::max);
+        let deviation = self.axes.iter().filter_map(|axis| axis.max_dev).fold(0.0, f64::max);
         if deviation > worst.mm * (1.0 + HARDLY_LONGER) * (1.0 + HARDLY_LONGER) + LEAST_SHOWN {
             writeln!(
                 out,
@@ -146,7 +146,7 @@ impl Summary {
         )?;
         for a in &self.axes {
             let delay_ms = a.filter_delay_cycles * f64::from(self.cycle_us) / 1000.0;
-            let dev = if a.max_dev.is_nan() { "-".into() } else { format!("{:.6}", a.max_dev) };
+            let dev = a.max_dev.map_or_else(|| "-".into(), |dev| format!("{dev:.6}"));
             writeln!(
                 out,
                 "  {:<6} {:>12.4} {:>12.3} {:>14.1} {:>11.6} {:>11} {:>11.6} {:>7.2} ms",

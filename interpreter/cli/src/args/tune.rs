@@ -76,7 +76,7 @@ pub struct TuneArgs {
     #[arg(long, value_name = "FILE", requires = "max_dev")]
     pub program: Option<PathBuf>,
 
-    /// Maximum deviation of an axis from the contour, in mm (deg): AX_DEV of the proposed command, limit in --program
+    /// Maximum deviation of an axis from the contour, in mm (deg): AX_DEV of the proposed command, limit in --program; not of axes that follow others
     #[arg(long, value_name = "MM", conflicts_with = "order_for", value_parser = above_zero, allow_negative_numbers = true)]
     pub max_dev: Option<f64>,
 

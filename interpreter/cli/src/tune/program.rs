@@ -35,7 +35,7 @@ struct Outcome {
     /// `AX_DEV` as set by the program or the run.
     ax_dev: Option<f64>,
     summary: Summary,
-    /// Largest deviation of a path axis from the contour in mm (deg).
+    /// Largest deviation of a path axis from the contour in mm (deg). Axes that follow others are no part of it.
     dev_mm: f64,
 }
 
@@ -100,10 +100,10 @@ pub(super) fn answer(
     })
 }
 
-/// Largest deviation of a path axis from the contour in mm (deg).
+/// Largest deviation of a path axis from the contour in mm (deg). Axes that follow others are no part of it.
 fn largest_deviation_mm(summary: &Summary, facts: &Facts) -> f64 {
     let axes = summary.axes.iter().zip(&facts.axes);
-    let path_axes = axes.filter(|(_, axis)| !axis.spindle).map(|(axis, _)| axis.max_dev);
+    let path_axes = axes.filter(|(_, axis)| !axis.spindle).filter_map(|(axis, _)| axis.max_dev);
     path_axes.fold(0.0, f64::max)
 }
 

@@ -63,7 +63,7 @@ byId("axes").append(head);
 for (const { name, summary: s, times } of runs) for (const a of s.axes) {
   const row = make("tr"), range = times.axes.find(r => r.name === a.name), span = (list, digits) => list.map(v => v.toFixed(digits)).join(" .. ");
   [`${one ? "" : name + " "}${a.name} ${a.unit}`, a.max_vel.toFixed(3), a.max_acc.toFixed(1), a.max_jerk.toFixed(0), a.max_err.toFixed(6),
-    a.max_dev.toFixed(6), a.max_lag.toFixed(6), (a.filter_delay_cycles * s.cycle_us / 1000).toFixed(2) + " ms",
+    a.max_dev === null ? "-" : a.max_dev.toFixed(6), a.max_lag.toFixed(6), (a.filter_delay_cycles * s.cycle_us / 1000).toFixed(2) + " ms",
     range ? span(range.position, 3) : "", range && range.torque_n_m.some(v => v !== 0) ? span(range.torque_n_m, 2) : "-"].forEach(t => row.append(make("td", t)));
   byId("axes").append(row);
 }
