@@ -119,11 +119,14 @@ impl Splining {
         block: Block,
         kernels: &Kernels,
     ) -> impl Iterator<Item = Block> + use<'a> {
-        if self.is_empty() && choice::is_comparable(&block, kernels) {
+        if self.is_empty() && choice::is_comparable(&block, kernels, self.cycle) {
             self.held = Some(Vec::new());
         }
         match &mut self.held {
-            Some(run) if run.len() < choice::MOST && choice::is_comparable(&block, kernels) => {
+            Some(run)
+                if run.len() < choice::MOST
+                    && choice::is_comparable(&block, kernels, self.cycle) =>
+            {
                 run.push(block);
             }
             _ => {

@@ -12,12 +12,15 @@
 //! enough for that to be of little effect.
 //!
 //! Longer runs are judged corner by corner ([`super::worth`]). So are runs under `AX_DEV`, whose plans have to be
-//! measured, and those with `AUTO_OFF_PATH` or `AUTO_OFF_TRACK`, where another tolerance is another end of the spline.
+//! measured, those with `AUTO_OFF_PATH` or `AUTO_OFF_TRACK`, where another tolerance is another end of the spline, and
+//! those with blocks of less than a quarter of a cycle: of many blocks within a cycle the set points show less than the plan, and
+//! the fastest plan may be the one whose set points exceed the limits.
 
 use super::stage::Stage;
 use crate::block::Block;
 use crate::contouring::{NoContour, Notice};
 use crate::junction::Ends;
+use crate::limits::{PathExtremes, PathSpeeds};
 use crate::planner::{Corners, Planner};
 use crate::tolerance::Kernels;
 use kontur_filters::time::CycleTime;
@@ -26,9 +29,11 @@ use kontur_filters::time::CycleTime;
 pub(super) const MOST: usize = 32;
 /// Ratio of the limits of the series, the cubic root of 4, and their largest number.
 const RATIO: f64 = 1.587_401_051_968_199_4;
-const LIMITS: usize = 7;
+const LIMITS: usize = 5;
 /// Share of an edge that no spline is further away from the polygon.
 const FURTHEST: f64 = 0.25;
+/// Shortest block in cycles, at the highest speed.
+const SHORTEST: f64 = 0.25;
 /// Share of the time that a smaller limit has to save.
 const GAIN: f64 = 1e-3;
 /// Change of direction treated as none.
@@ -38,10 +43,17 @@ const STRAIGHT: f64 = 1e-9;
 type Splined = (Vec<Block>, Vec<Notice>);
 
 /// Whether a block can be part of a run that is planned as a whole.
-pub(super) fn is_comparable(block: &Block, kernels: &Kernels) -> bool {
+pub(super) fn is_comparable(block: &Block, kernels: &Kernels, cycle: CycleTime) -> bool {
     let monitored = kernels.any() && block.tolerance.ax_dev_mm.is_some();
     let fixed = block.spline.is_none_or(|s| s.off_at_path_dev || s.off_at_track_dev);
-    !fixed && !monitored && block.contour.is_none()
+    !fixed && !monitored && block.contour.is_none() && lasts(block, cycle)
+}
+
+/// Whether a block at its highest speed takes [`SHORTEST`] of a cycle at least.
+fn lasts(block: &Block, cycle: CycleTime) -> bool {
+    let speeds = PathSpeeds::of(block, &PathExtremes::of(&block.path));
+    let v_mm_s = speeds.limited(speeds.programmed_mm_s).v_mm_s;
+    block.path.length() >= SHORTEST * v_mm_s * cycle.seconds()
 }
 
 /// The fastest of the splines of a run between two blocks; `None` instead of a block: the path rests there.
