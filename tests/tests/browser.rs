@@ -8,7 +8,7 @@ use kontur::chart::scale::ticks;
 use kontur_filters::analysis::spring::SpringMass;
 use kontur_filters::time::CycleTime;
 use kontur_tests::command::command;
-use kontur_tests::run;
+use kontur_tests::{programs, run};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -207,6 +207,31 @@ fn look(browser: &Path, programs: &[&str], options: &[&str]) -> Value {
 }
 
 const SQUARE: &str = "#VIB GUARD ON [MODE=1 FREQ=20]\nG01 X10 F6000\nY10\nX0\nY0\nM30\n";
+
+/// The slave of a gantry has no deviation from the contour.
+#[test]
+fn a_page_with_an_axis_that_follows() {
+    let Some(browser) = browser() else {
+        println!("no browser found: nothing tested");
+        return;
+    };
+    let machine = programs().join("machines/gantry");
+    let page = look(&browser, &[SQUARE], &["-m", machine.to_str().unwrap()]);
+    assert_eq!(page["errors"], serde_json::json!([]));
+    let drawn = |card: &str| {
+        let curves = page["swatches"].as_array().unwrap().iter();
+        curves.filter(|c| c["card"] == card).filter_map(|c| c["name"].as_str()).collect::<Vec<_>>()
+    };
+    assert_eq!(drawn("Lag"), ["X", "Y", "Z", "X2"]);
+    assert_eq!(drawn("Deviation from the contour by axis"), ["X", "Y", "Z"]);
+    // a coupling begins behind the square
+    let coupled = SQUARE.replace(
+        "M30",
+        "#SET AX [X,1,0][Y,2,1][C,3,3]\n#SET AX LINK [1, C=X]\n#ENABLE AX LINK [1]\nG01 X5\nM30",
+    );
+    let page = look(&browser, &[&coupled], &[]);
+    assert_eq!(page["errors"], serde_json::json!([]));
+}
 
 #[test]
 fn the_page_draws_and_answers() {

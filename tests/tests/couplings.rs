@@ -2,7 +2,7 @@
 
 use kontur_interpreter::record::CycleRecord;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, Settings, machine, run_on, run_with_inputs};
+use kontur_tests::{Run, Settings, machine, run_on, run_with_inputs, sample_machine};
 
 /// Z is not one of the main axes, so that it can follow; it begins at 5.
 const SETUP: &str = "#SET AX [X,1,0][Y,2,1][C,3,3]\n";
@@ -81,7 +81,7 @@ fn followers_are_not_measured() {
                 #DISABLE AX LINK\nG01 C40\nY0";
     let run = go(&[], &format!("{guard}{text}"));
     let [mut coupled, mut free] = [0, 0];
-    for record in &run.records[1..] {
+    for record in &run.records {
         let [x, c] = [0, 2].map(|axis| record.axes[axis].dev);
         assert!(x.is_finite());
         match record.line {
@@ -95,6 +95,12 @@ fn followers_are_not_measured() {
     assert!(coupled > 500 && free > 500, "{coupled} {free}");
     let dev = run.records.iter().map(|r| r.axes[2].dev.abs()).fold(0.0, f64::max);
     assert!(dev > 0.01, "{dev}");
+    let gantry =
+        run_on(sample_machine("gantry", &[]), &format!("%P\n{guard}G01 X20 F3000\nY20\nM30\n"));
+    for (k, record) in gantry.records.iter().enumerate() {
+        let [x, slave] = [0, 3].map(|axis| record.axes[axis].dev);
+        assert!(x.is_finite() && slave.is_nan(), "cycle {k}: {x} {slave}");
+    }
 }
 
 /// `SET_POSITION` moves nothing: speeds and lag are those of the same motions without it, and so is the deviation under a Vibration

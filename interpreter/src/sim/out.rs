@@ -94,34 +94,36 @@ impl Samples {
                 continue;
             }
             for axis in 0..n {
-                for (i, sample) in measured() {
-                    let dev = self.values[2 * n * i + first + axis];
-                    let dev = if sample.follows(axis) { f64::NAN } else { dev };
-                    *rows.value_mut(axis, quantity, i) = dev;
+                for (i, _) in measured() {
+                    *rows.value_mut(axis, quantity, i) = self.values[2 * n * i + first + axis];
                 }
             }
-            for axis in self.bridges.clone() {
-                for (i, _) in measured() {
+            for (i, sample) in self.cycles.iter().enumerate() {
+                for axis in self.followers(sample) {
                     *rows.value_mut(axis, quantity, i) = f64::NAN;
                 }
             }
         }
     }
 
+    /// The axes that have no deviation of their own in a cycle, measured or not (indices into those of a record).
+    fn followers(&self, sample: &Sample) -> impl Iterator<Item = usize> {
+        let path_axes = if sample.followers == 0 { 0 } else { self.axes };
+        (0..path_axes).filter(|axis| sample.follows(*axis)).chain(self.bridges.clone())
+    }
+
     /// Writes the results of the last cycle into its record.
     pub(crate) fn fill_last(&self, record: &mut CycleRecord) {
         let Some((i, sample)) = self.cycles.iter().enumerate().next_back() else { return };
-        if sample.wanted == Wanted::Nothing {
-            return;
+        if sample.wanted != Wanted::Nothing {
+            let n = self.axes;
+            record.contour_err_mm = sample.length_mm;
+            let (dev, both_ways) = self.values[2 * n * i..2 * n * (i + 1)].split_at(n);
+            for ((axis, dev), both_ways) in record.axes.iter_mut().zip(dev).zip(both_ways) {
+                (axis.dev, axis.dev_both_ways) = (*dev, *both_ways);
+            }
         }
-        let n = self.axes;
-        record.contour_err_mm = sample.length_mm;
-        let (dev, both_ways) = self.values[2 * n * i..2 * n * (i + 1)].split_at(n);
-        for ((axis, dev), both_ways) in record.axes.iter_mut().zip(dev).zip(both_ways) {
-            (axis.dev, axis.dev_both_ways) = (*dev, *both_ways);
-        }
-        let followers = (0..n).filter(|axis| sample.follows(*axis)).chain(self.bridges.clone());
-        for axis in followers {
+        for axis in self.followers(sample) {
             let axis = &mut record.axes[axis];
             (axis.dev, axis.dev_both_ways) = (f64::NAN, f64::NAN);
         }

@@ -158,20 +158,31 @@ impl Recording {
         }
     }
 
-    /// Completes the recording and drops curves without information. (The load of a stiff axis is where its motor is.)
+    /// Completes the recording and drops curves without information: the load of a stiff axis, which is where its motor is, and the
+    /// deviation of an axis that follows another one, which is not measured.
     pub(crate) fn finish(&mut self) {
         for i in (0..self.curves.len()).rev() {
-            let actual = |c: &Curve| c.kind == Kind::Actual && c.axis == self.curves[i].axis;
-            if self.curves[i].kind == Kind::Load
-                && let Some(beside) = self.curves.iter().position(actual)
-                && self.buckets.iter().all(|b| b.range[i] == b.range[beside])
-            {
+            if self.is_empty(i) || self.repeats_the_motor(i) {
                 self.curves.remove(i);
                 for bucket in &mut self.buckets {
                     bucket.range.remove(i);
                 }
             }
         }
+    }
+
+    /// Whether a curve has no values.
+    fn is_empty(&self, curve: usize) -> bool {
+        !self.buckets.is_empty() && self.buckets.iter().all(|b| b.range[curve].0.is_nan())
+    }
+
+    fn repeats_the_motor(&self, curve: usize) -> bool {
+        let Curve { kind, axis, .. } = self.curves[curve];
+        let actual = |c: &Curve| c.kind == Kind::Actual && c.axis == axis;
+        kind == Kind::Load
+            && self.curves.iter().position(actual).is_some_and(|beside| {
+                self.buckets.iter().all(|b| b.range[curve] == b.range[beside])
+            })
     }
 
     /// Number of cycles that were added.

@@ -100,7 +100,8 @@ function* pointsOf(line, [from, to]) {
     return;
   }
   const { r, c, pass } = line, last = Math.min(r.k.length - 1, bucketAt(r, to) + 1);
-  const at = (i, k) => pass !== null && r.passed[i] !== pass ? null : [seconds(r, k), c.low[i], (c.high || c.low)[i]];
+  // null: a gap, also where nothing is measured
+  const at = (i, k) => pass !== null && r.passed[i] !== pass || c.low[i] === null ? null : [seconds(r, k), c.low[i], (c.high || c.low)[i]];
   for (let i = Math.max(0, bucketAt(r, from)); i <= last; i++) yield at(i, r.k[i]);
   // to the last cycle of the run
   if (last === r.k.length - 1 && r.last > r.k[last]) yield at(last, r.last);

@@ -101,7 +101,7 @@ function tip(x, y) {
       text.push(`${name}  set ${set}   act ${act} mm`);
     });
     for (const kind of ["speed", "error", "dev", "lag"]) {
-      const all = [...new Set(plots.filter(p => p.kind === kind).flatMap(p => p.lines.filter(l => l.r === r).map(l => l.c)))];
+      const all = [...new Set(plots.filter(p => p.kind === kind).flatMap(p => p.lines.filter(l => l.r === r).map(l => l.c)))].filter(c => c.low[i] !== null);
       const value = c => (c.high && Math.abs(c.high[i]) > Math.abs(c.low[i]) ? c.high : c.low)[i];
       const words = { speed: "", error: "", dev: "deviation ", lag: "lag " };
       if (all.length) text.push(all.map(c => `${words[kind]}${c.name} ${value(c).toFixed(kind === "speed" ? 3 : 5)} ${c.unit}`).join("   "));
