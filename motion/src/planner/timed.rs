@@ -34,6 +34,9 @@ impl Planner {
         }
         planner.finish();
         while !planner.plan.segments.is_empty() {
+            if planner.plan.is_barred() {
+                return None;
+            }
             planner.extend().ok()?;
         }
         let end = planner.timeline.entries().next_back()?.end;

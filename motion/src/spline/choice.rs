@@ -5,8 +5,8 @@
 //! than the polygon itself. What is the fastest depends on the speeds along the whole run, and these are known once it is
 //! planned. So a run of up to [`MOST`] blocks is planned with several splines, between the block before it and the one
 //! after it, and the fastest one is used: with the tolerances as they are given, with each of a series of smaller limits
-//! that is the same for all runs, and without any spline. A larger tolerance adds limits to this series and removes
-//! none, so that it is hardly ever slower.
+//! that is the same for all runs, and without any spline. A larger tolerance adds limits to this series and removes only
+//! those below about a tenth of it, so that it is hardly ever slower.
 //!
 //! Assumption: the path rests before the block before the run and after the one after it, which are long
 //! enough for that to be of little effect.
@@ -16,6 +16,7 @@
 //! those with blocks of less than a quarter of a cycle: of many blocks within a cycle the set points show less than the plan, and
 //! the fastest plan may be the one whose set points exceed the limits.
 
+use super::edge::{ends_at, programmed, stops_between};
 use super::stage::Stage;
 use crate::block::Block;
 use crate::contouring::{NoContour, Notice};
@@ -110,13 +111,43 @@ fn splined(run: &[Block], limit_mm: f64, kernels: &Kernels, cycle: CycleTime) ->
     (blocks, stage.take_notices())
 }
 
-/// The run as programmed.
+/// The run as programmed, and the corners that a spline would round.
 fn sharp(run: &[Block]) -> Splined {
-    let ends: Vec<Ends> = run.iter().map(Ends::of).collect();
-    let corners = run.iter().zip(ends.windows(2)).filter(|(_, ends)| {
-        let (a, b) = (&ends[0].tangent_out, &ends[1].tangent_in);
-        a.iter().zip(b.iter()).any(|(a, b)| (a - b).abs() > STRAIGHT)
-    });
-    let notices = corners.map(|(block, _)| Notice { seq: block.seq, reason: NoContour::Slower });
+    let corners = run.windows(2).filter(|pair| is_rounded(&pair[0], &pair[1]));
+    let notices = corners.map(|pair| Notice { seq: pair[0].seq, reason: NoContour::Slower });
     (run.to_vec(), notices.collect())
+}
+
+/// Whether there is a corner between two blocks at which a spline does not end.
+fn is_rounded(from: &Block, to: &Block) -> bool {
+    let [out_of, into] = [from, to].map(Ends::of);
+    let bends = out_of.tangent_out.iter().zip(into.tangent_in.iter());
+    let points = [from.path.start(), to.path.start(), to.path.end()].map(|p| &p[..]);
+    programmed(from).is_some()
+        && !stops_between(from, to)
+        && bends.into_iter().any(|(a, b)| (a - b).abs() > STRAIGHT)
+        && programmed(to).is_some_and(|settings| !ends_at(points, to, &settings))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::SplineSettings;
+    use crate::example::block;
+
+    /// Corners are at 0 (right angle), 1 (none), 2 (reversal) and 3 (right angle, `MAX_ANGLE` of the next block is 80 deg).
+    #[test]
+    fn only_corners_that_a_spline_would_round_are_named() {
+        let points = [[0.0, 0.0], [5.0, 0.0], [5.0, 3.0], [5.0, 6.0], [5.0, 2.0], [9.0, 2.0]];
+        let run: Vec<Block> = (0..5)
+            .map(|i| {
+                let max_angle_deg = if i == 4 { 80.0 } else { 180.0 };
+                let spline = Some(SplineSettings { max_angle_deg, ..SplineSettings::default() });
+                Block { spline, ..block(i as u64, points[i], points[i + 1], 100.0) }
+            })
+            .collect();
+        let (blocks, notices) = sharp(&run);
+        assert_eq!(blocks.len(), run.len());
+        assert_eq!(notices, [Notice { seq: 0, reason: NoContour::Slower }]);
+    }
 }
