@@ -25,6 +25,10 @@ fn kernel_delay(mode: u8, freq_hz: f64, damping: f64) -> f64 {
     settings.kernel(CycleTime::DEFAULT).unwrap().delay_cycles()
 }
 
+fn near(is: f64, want: f64) {
+    assert!((is - want).abs() < 1e-6, "{is} is not {want}");
+}
+
 /// From the list: from program start, axis by axis; unequal delays are reported. Conformance: V003, V025.
 #[test]
 fn lists_activate_single_axes() {
@@ -43,6 +47,33 @@ fn lists_activate_single_axes() {
         "{delays:?}: {text:?}"
     );
     assert!(!run.totals.aborted);
+}
+
+/// From the program: all axes at once, modal until OFF, without any preparation. Conformance: V004, V027, V042, V044.
+#[test]
+fn the_command_activates_all_axes() {
+    let run = on(
+        &[
+            "#VIB GUARD ON [MODE=2 FREQ=40]",
+            "G01 X100 Y100 Z100 F6000",
+            "X0 Y0 Z0",
+            "#VIB GUARD OFF",
+            "X100 Y100 Z100",
+        ],
+        &[],
+    );
+    assert_eq!(run.diagnostics, []);
+    for r in run.records.iter().filter(|r| r.line <= 5) {
+        let behind = |i: usize| r.axes[i].ipo - r.axes[i].set;
+        near(behind(0), behind(1));
+        near(behind(0), behind(2));
+    }
+    let diagonal = kernel_delay(2, 40.0, 0.1) / 3.0_f64.sqrt();
+    near(run.delay_cycles(4), diagonal);
+    near(run.delay_cycles(5), -diagonal);
+    for r in run.of_line(7) {
+        assert_eq!(r.axes[0].set.to_bits(), r.axes[0].ipo.to_bits());
+    }
 }
 
 /// The longer the cycle, the faster the kink, the larger the error. Conformance: V022.
@@ -82,6 +113,46 @@ fn the_tolerance_acts_only_where_it_must() {
     let run = on(&["#VIB GUARD ON [AX_DEV=-0.01]", SQUARE], &[]);
     assert_eq!(run.said(), ["K-0034"]);
     assert!(run.totals.aborted);
+}
+
+/// The list prepares, the program switches; the words of the program take precedence. Conformance: V028, V029.
+#[test]
+fn lists_and_program() {
+    let motion = "G01 X100 F6000";
+    let run = on(&["#VIB GUARD ON", motion], "X,Y,Z.vib_guard: mode=3, freq=20");
+    near(run.delay_cycles(4), kernel_delay(3, 20.0, 0.1));
+    let active = "X,Y,Z.vib_guard: active=1, mode=1, freq=30";
+    let run =
+        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], active);
+    near(run.delay_cycles(3), kernel_delay(1, 30.0, 0.1));
+    near(run.delay_cycles(5), kernel_delay(4, 50.0, 0.1));
+    near(run.delay_cycles(7), 0.0);
+}
+
+/// Axis exchange switches the guard of the program off; that of the list stays on. Conformance: V039, V040, V041.
+#[test]
+fn axis_exchange() {
+    let motion = "G01 X100 F6000";
+    let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", motion], &[]);
+    assert!(run.is_unshaped(0) && !run.totals.aborted);
+    assert!(
+        run.diagnostics.iter().any(|d| d.text.contains("Vibration Guard")),
+        "{:?}",
+        run.diagnostics
+    );
+    let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", "#VIB GUARD ON", motion], &[]);
+    near(run.delay_cycles(6), kernel_delay(1, 30.0, 0.1));
+    let run = on(&["#PUT AX [Z]", motion], "X,Y,Z.vib_guard.active=1");
+    near(run.delay_cycles(4), kernel_delay(1, 30.0, 0.1));
+}
+
+/// Keys in any order, and defaults; ranges are rows of `shaping.txt`. Conformance: V043, V045, V046, V047, V052.
+#[test]
+fn keys_of_the_command() {
+    let records = |command: &str| on(&[command, SQUARE], &[]).records;
+    assert_eq!(records("#VIB GUARD ON [FREQ=6 MODE=2]"), records("#VIB GUARD ON [MODE=2 FREQ=6]"));
+    let motion = "G01 X100 F6000";
+    near(on(&["#VIB GUARD ON", motion], &[]).delay_cycles(4), kernel_delay(1, 30.0, 0.1));
 }
 
 /// Speed at a corner of 90 degrees: a T with the weight of 10 %, times ACC_FACT. Conformance: V050, V051.
