@@ -1,5 +1,6 @@
 ; run: exit 0
 ; end X0.070185 Y-0.096234
+; note K-0146 at 9:1
 (blocks of 0.1 um to 0.09 mm, many of them within a cycle: the spline keeps the limits of the axes as their polygon does)
 #SLOPE [TYPE=STEP]
 G90 G01 X0 Y0 F6000
