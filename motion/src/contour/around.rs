@@ -35,6 +35,13 @@ impl Contour {
         let half: f64 = f64::sqrt(half);
         sight.look_from(middle, self.number(all.start)..self.number(all.end));
         let mut around = Around { blocks: SmallVec::new(), half };
+        if self.is_of_one_path(all.clone()) {
+            let (i, counts) = (all.start.max(among.start), !among.is_empty());
+            let passed = &self.blocks[i];
+            let (block, distance) = (passed.queued.block.seq, 0.0);
+            around.blocks.push(Candidate { passed, block, distance, counts });
+            return around;
+        }
         let vector = &mut AxisVec::zeros(n)[..];
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
         // a filter usually delays the set point by half its length: the block there rules out most of the others
@@ -80,6 +87,23 @@ impl Contour {
         sight.nearest = nearest.1;
         around.blocks.retain(|b| b.distance <= most);
         around
+    }
+
+    /// Whether all blocks that [`Self::around`] searches are parts of one path: no point has vectors from several.
+    pub(crate) fn is_one_path(
+        &self,
+        moments: (f64, f64),
+        slack: (f64, f64),
+        sight: &mut Sight,
+    ) -> bool {
+        let reached = self.within_reach(moments, sight);
+        let among = reached.start..self.whole(reached.end);
+        self.is_of_one_path(self.with_slack(&reached, &among, moments, slack))
+    }
+
+    fn is_of_one_path(&self, all: Range<usize>) -> bool {
+        let mut blocks = self.blocks.range(all);
+        blocks.next().is_some_and(|first| blocks.all(|passed| first.is_part_of_the_same(passed)))
     }
 
     /// Entries interpolated between two moments (cycles).
@@ -129,7 +153,7 @@ struct Candidate<'a> {
     passed: &'a Passed,
     /// Number of the block.
     block: u64,
-    /// Distance from the midpoint of the line in mm.
+    /// Distance from the midpoint of the line in mm, to compare several; 0 if there is one path only.
     distance: f64,
     /// Whether it is within reach without the slack.
     counts: bool,
@@ -149,6 +173,11 @@ impl<'a> Around<'a> {
     /// Whether the slack adds no block, so that [`Self::nearest`] and [`Self::nearest_of_all`] are the same.
     pub(crate) fn all_count(&self) -> bool {
         self.blocks.iter().all(|b| b.counts)
+    }
+
+    /// Whether there is one block only.
+    pub(crate) fn is_single(&self) -> bool {
+        self.blocks.len() == 1
     }
 
     /// Whether another block can be nearer somewhere on the line. Over half the line the two distances can change by at

@@ -35,7 +35,7 @@ pub(super) fn largest<'a>(
     let Some(mut now) = now else { return };
     let n = line.0.len();
     let vector = &mut AxisVec::zeros(n)[..];
-    let alone = now.line().is_some() && !around.may_be_nearer_than(&now);
+    let alone = around.is_single() || now.line().is_some() && !around.may_be_nearer_than(&now);
     let then = if alone { Some(now) } else { around.nearest_of_all(line.0, vector) };
     let Some(then) = then else { return };
     if then.block != now.block
