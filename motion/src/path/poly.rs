@@ -16,11 +16,10 @@ use std::sync::{Arc, OnceLock};
 const SPLIT: f64 = 1e-13;
 /// Largest depth of halving.
 const DEPTH: u32 = 12;
-/// Residual, as a share of a sub-interval, from which on one more Newton step is enough for [`PolyPath::near`], as it
-/// squares the residual.
+/// Residual, as a share of a sub-interval, from which on one more Newton step, which squares it, leaves only rounding.
+const EXACT: f64 = 1e-8;
+/// As [`EXACT`], where 1e-7 of the length is enough ([`PolyPath::near`]).
 const GUESS: f64 = 1e-4;
-/// Newton steps after which [`PolyPath::near`] falls back to the exact search.
-const STEPS: usize = 4;
 
 /// Smallest distance beyond its ends that counts for a curve, in mm and relative to its position: less is rounding.
 const BEYOND: (f64, f64) = (1e-9, 1e-12);
@@ -265,12 +264,37 @@ impl PolyPath {
 
     /// Piece and parameter at `s`.
     pub(crate) fn locate(&self, s: f64) -> (usize, f64) {
+        self.parameter(s, EXACT)
+    }
+
+    /// As [`Self::position`] to 1e-7 of the length, at half the cost.
+    pub(super) fn near(&self, s: f64, out: &mut [f64]) {
+        let (piece, x) = self.parameter(s, GUESS);
+        self.point(piece, x, out);
+    }
+
+    /// Piece and parameter at `s`, by Newton's method. The first residual up to `enough` is followed by the last step, which
+    /// squares it.
+    ///
+    /// The parameter is first estimated by a cubic in the path length with the correct values and slopes at both ends
+    /// of a cell.
+    fn parameter(&self, s: f64, enough: f64) -> (usize, f64) {
         let (cell, want, whole) = self.cell_at(s);
         let (mut low, mut high) = (cell.from, cell.to);
-        let mut x = low + (high - low) * if whole > 0.0 { want / whole } else { 0.0 };
+        if whole <= 0.0 {
+            return (cell.piece, low);
+        }
+        let (u, width) = ((want / whole).clamp(0.0, 1.0), high - low);
+        // a cubic with end slopes of up to three times the mean slope is monotonic (Fritsch and Carlson, 1980)
+        let [start, end] = cell.rates.map(|rate| (whole / rate).min(3.0 * width));
+        let v = 1.0 - u;
+        let mut x = low + width * u * u * (3.0 - 2.0 * u) + u * v * (v * start - u * end);
         for _ in 0..50 {
             let miss = self.gauss(cell.piece, cell.from, x) - want;
-            if miss.abs() <= 1e-15 * self.length {
+            let newton = x - miss / self.rate(cell.piece, x);
+            // next to a cusp the step is not as small as the residual
+            if miss.abs() <= enough * whole && (newton - x).abs() <= enough.sqrt() * width {
+                x = newton;
                 break;
             }
             if miss > 0.0 {
@@ -278,7 +302,6 @@ impl PolyPath {
             } else {
                 low = x;
             }
-            let newton = x - miss / self.rate(cell.piece, x);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if (next - x).abs() <= 1e-16 {
                 break;
@@ -286,32 +309,6 @@ impl PolyPath {
             x = next;
         }
         (cell.piece, x.clamp(cell.from, cell.to))
-    }
-
-    /// As [`Self::position`] to 1e-7 of the length, at a fifth of the cost.
-    ///
-    /// The parameter is first estimated by a cubic in the path length with the correct values and slopes at both ends
-    /// of a cell. The result of the last Newton step is not checked, since the step squares the remaining error.
-    pub(super) fn near(&self, s: f64, out: &mut [f64]) {
-        let (cell, want, whole) = self.cell_at(s);
-        let width = cell.to - cell.from;
-        let u = (want / whole).clamp(0.0, 1.0);
-        // a cubic with end slopes of up to three times the mean slope is monotonic (Fritsch and Carlson, 1980)
-        let [start, end] = cell.rates.map(|rate| (whole / rate).min(3.0 * width));
-        let v = 1.0 - u;
-        let mut x = cell.from + width * u * u * (3.0 - 2.0 * u) + u * v * (v * start - u * end);
-        for _ in 0..STEPS {
-            let miss = self.gauss(cell.piece, cell.from, x) - want;
-            let next = x - miss / self.rate(cell.piece, x);
-            if !next.is_finite() {
-                break;
-            }
-            x = next.clamp(cell.from, cell.to);
-            if miss.abs() <= GUESS * whole {
-                return self.point(cell.piece, x, out);
-            }
-        }
-        self.position(s, out);
     }
 
     pub(super) fn position(&self, s: f64, out: &mut [f64]) {

@@ -107,9 +107,11 @@ impl View<'_> {
         // the components depend on which blocks count as within reach
         let doubt = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
         let is_certain = contour.is_one_path(within_reach, (BORDER_CYCLES, BORDER_CYCLES), sight);
-        let doubtful = |sight: &mut Sight| match is_certain {
-            true => 0.0,
-            false => set.doubtful(contour, k, within_reach, doubt, sight),
+        let doubtful = |sight: &mut Sight| {
+            if is_certain {
+                return 0.0;
+            }
+            set.doubtful(contour, k, within_reach, doubt, sight)
         };
         // the shortest vectors keep the tolerance if the bound does, which is close to them where the filters are equal
         let keeps = apart <= within(tolerance_mm) && !self.trial.kernels.differ();

@@ -75,13 +75,13 @@ impl PolyPath {
         let to_middle = |q: &[f64]| q.iter().zip(point).map(|(q, p)| (q - p) * (q - p)).sum();
         let middles: SmallVec<[f64; 8]> =
             self.middles.chunks_exact(self.start.len()).map(to_middle).collect();
-        // only these sub-intervals can contain the nearest sample: in the others every point is further away
-        let within = middles.iter().copied().fold(f64::INFINITY, f64::min).sqrt() * (1.0 + 1e-9);
         let mut best = (f64::INFINITY, 0, 0.0);
-        for (i, cell) in self.cells.iter().enumerate() {
-            let reach = within + cell.radius;
+        let mut look = |i: usize| {
+            let cell = &self.cells[i];
+            // every point of a sub-interval is within its radius of the middle
+            let reach = best.0.sqrt() * (1.0 + 1e-9) + cell.radius;
             if middles[i] > reach * reach {
-                continue;
+                return;
             }
             let places = std::array::from_fn(|k| cell.sample(k));
             let squares: [f64; SAMPLES + 1] = squares(&self.pieces[cell.piece], point, &places);
@@ -90,7 +90,11 @@ impl PolyPath {
                     best = (d, i, x);
                 }
             }
-        }
+        };
+        // the sub-interval with the nearest middle rules out most of the others
+        let first = (0..middles.len()).min_by(|a, b| middles[*a].total_cmp(&middles[*b]));
+        first.into_iter().for_each(&mut look);
+        (0..middles.len()).filter(|i| Some(*i) != first).for_each(&mut look);
         // if the best sample is at the border of a sub-interval, the nearest point may be in the next one
         let (_, i, x) = best;
         let mut nearest = (f64::INFINITY, i, x);
