@@ -333,7 +333,7 @@ fn check(config: &FilterConfig, cycle: CycleTime) -> (FilterConfig, Vec<FilterIs
         let (min_hz, max_hz) = (LOWEST_FREQUENCY_RATIO * sampling_hz, 0.5 * sampling_hz);
         let f_hz = config.f_hz;
         if f_hz.is_nan() || f_hz >= max_hz {
-            issues.push(FilterIssue::Frequency { f_hz, min_hz: 0.0, max_hz });
+            issues.push(FilterIssue::Frequency { f_hz, min_hz, max_hz });
         } else if f_hz < min_hz {
             config.f_hz = min_hz;
             issues.push(FilterIssue::FrequencyTooLow { f_hz, used_hz: min_hz });

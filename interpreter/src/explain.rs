@@ -40,6 +40,7 @@ pub fn explain(thing: &str) -> Result<Explanation, Vec<String>> {
     message_of(thing)
         .map(message)
         .or_else(|| table::by_id(thing).map(parameter))
+        .or_else(|| table::by_id(&with_five_digits(thing)?).map(parameter))
         .or_else(|| key_of(thing).map(parameter))
         .or_else(|| commands::find(thing))
         .or_else(|| variables::find(thing))
@@ -75,6 +76,13 @@ fn message_of(thing: &str) -> Option<&'static condition::Row> {
     };
     let named = |e: &&condition::Row| Some(e.id) == id || (!e.name.is_empty() && e.name == upper);
     condition::rows().find(named)
+}
+
+/// `P-AXIS-00363` for `P-AXIS-363` and `P-AXIS-000363`.
+fn with_five_digits(id: &str) -> Option<String> {
+    let (list, digits) = id.rsplit_once('-')?;
+    let number: u32 = digits.parse().ok()?;
+    list.starts_with(['P', 'p']).then(|| format!("{list}-{number:05}"))
 }
 
 fn key_of(thing: &str) -> Option<&'static Row> {

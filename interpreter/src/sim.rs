@@ -176,6 +176,7 @@ impl Simulation {
                     }
                     Ok(Next::Input) => self.pull(),
                     Ok(Next::Rest) => self.at_rest(),
+                    Ok(Next::Stopped) => self.phase = Phase::Done,
                     Err(e) => self.fail(&format!("look-ahead: {e}")),
                 },
                 Phase::Waiting(_) => match self.wait() {

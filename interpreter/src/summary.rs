@@ -22,6 +22,8 @@
 
 mod results;
 mod ripple;
+#[cfg(test)]
+mod tests;
 mod text;
 
 use crate::diag::Diagnostic;
@@ -36,6 +38,10 @@ pub use ripple::SpeedRipple;
 
 /// Number of messages that are kept; more are only counted, because a program may repeat a warning without end.
 const MESSAGES_KEPT: usize = 1000;
+
+/// Contour errors in mm that differ by less are the same one: that of the first corner of several equal ones is named, whatever
+/// their last bits are.
+const SAME_ERROR_MM: f64 = 1e-9;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -171,7 +177,10 @@ pub struct Collector {
     axes: Vec<AxisRecord>,
     last: Option<(u64, f64)>,
     cycles: u64,
+    /// The first of the largest contour errors, with its cycle and place.
     worst: (f64, u64, u32, u32, Option<u64>),
+    /// The largest contour error in mm.
+    most_error_mm: f64,
     limits: [u64; SpeedLimit::ALL.len()],
     rests: [u64; Rest::ALL.len()],
     ripple: ripple::Collector,
@@ -188,6 +197,7 @@ impl Collector {
             last: None,
             cycles: 0,
             worst: (0.0, 0, 0, 0, None),
+            most_error_mm: 0.0,
             limits: [0; SpeedLimit::ALL.len()],
             rests: [0; Rest::ALL.len()],
             ripple: ripple::Collector::new(facts),
@@ -231,9 +241,12 @@ impl Collector {
 
     /// Adds the values of a cycle that do not belong to an axis; `ipo`: interpolated setpoints of the axes.
     fn add_whole(&mut self, record: &CycleRecord, ipo: impl Fn(usize) -> Option<f64>) {
-        if self.cycles == 0 || record.contour_err_mm > self.worst.0 {
-            let place = (record.contour_err_mm, record.k, record.file, record.line, record.block);
-            self.worst = place;
+        let error_mm = record.contour_err_mm;
+        if self.cycles == 0 || error_mm > self.worst.0 + SAME_ERROR_MM {
+            self.worst = (error_mm, record.k, record.file, record.line, record.block);
+            self.most_error_mm = error_mm;
+        } else if error_mm > self.most_error_mm {
+            self.most_error_mm = error_mm;
         }
         // row k covers the time since the previous row; the first row is the start itself
         if let Some((before, _)) = self.last {
@@ -269,7 +282,7 @@ impl Collector {
         let facts = self.facts;
         let seconds = |cycles: u64| cycles as f64 * f64::from(facts.cycle_us) / 1e6;
         let (k, path_length_mm) = self.last.unwrap_or_default();
-        let (mm, at, file, line, block) = self.worst;
+        let (mm, (_, at, file, line, block)) = (self.most_error_mm, self.worst);
         let axes = self.axes.iter().zip(&facts.axes).enumerate();
         let name = |file: u32| facts.files.name(file);
         let rested_s = |rest: Rest| {

@@ -40,7 +40,7 @@ pub(crate) use scan::NESTING_MAX;
 use crate::diag::{Condition, Diagnostic, Severity};
 use crate::source::{BLOCK_LENGTH, BLOCK_LENGTH_MAX, RawBlock};
 use ast::{Block, BlockNumber, Body, Span};
-use build::{Builder, PROBLEMS_MAX};
+use build::{Builder, PROBLEMS_MAX, words_behind};
 use grammar::{Grammar, Rule};
 use pest::Parser as _;
 use pest::error::Error;
@@ -246,7 +246,21 @@ impl Parser {
             return rest.map_or_else(|_| Block::default(), |pairs| builder.block(pairs));
         }
         match parsed {
-            Ok(pairs) => builder.block(pairs),
+            Ok(pairs) => {
+                let mut block = builder.block(pairs);
+                if let Body::Command(command) = &mut block.body
+                    && let Some(word) = command.word_behind()
+                {
+                    let shown = masked.text.get(word.start as usize..word.end() as usize);
+                    let text = format!(
+                        "unexpected `{}`, expected the end of the block",
+                        shown.unwrap_or_default()
+                    );
+                    builder.report_error(Problem::new(Condition::WordsBehindCommand, word, text));
+                    command.behind = words_behind(&mut builder, word.start as usize);
+                }
+                block
+            }
             Err(error) => rest_of(builder, &error, &masked.text, mode),
         }
     }
@@ -263,7 +277,16 @@ fn rest_of(mut builder: Builder<'_>, error: &Error<Rule>, masked: &str, mode: Mo
     let lost = found.condition == Condition::FunctionBracket;
     let jump = found.condition == Condition::GotoTarget;
     let end = jump.then_some(found.span.start as usize);
+    let behind = found.condition == Condition::WordsBehindCommand && mode == Mode::Block;
+    let start = found.span.start as usize;
     builder.report_error(found);
+    if behind && let Ok(pairs) = Grammar::parse(Rule::block, &masked[..start]) {
+        let mut block = builder.block(pairs);
+        if let Body::Command(command) = &mut block.body {
+            command.behind = words_behind(&mut builder, start);
+        }
+        return block;
+    }
     let rule = match (context, mode) {
         (problem::Context::Words, Mode::Block) if !lost => Rule::tolerant,
         _ => Rule::head_only,

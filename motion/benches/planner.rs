@@ -64,7 +64,7 @@ fn drive(count: usize, kind: SlopeKind, ax_dev_mm: Option<f64>) -> u64 {
                 i += 1;
             }
             Ok(Next::Input) => planner.finish(),
-            Ok(Next::Rest) | Err(_) => return planner.setpoint().k,
+            Ok(Next::Rest | Next::Stopped) | Err(_) => return planner.setpoint().k,
         }
     }
 }

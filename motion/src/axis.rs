@@ -164,7 +164,8 @@ impl AxisDynamics {
         self.step_feed = self.step_rapid;
     }
 
-    /// The limits that hold for this axis and another one that moves the same distance: the lower of each value.
+    /// The limits that hold for this axis and another one that moves the same distance: the lower of each value. Ramps follow the
+    /// lower jerk, as those of a path follow the jerks of its axes; the longer ramp time would be slower than either axis needs.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         let step = |a: &StepSlope, b: &StepSlope| StepSlope {
@@ -173,6 +174,8 @@ impl AxisDynamics {
             change_mm_s: a.change_mm_s.min(b.change_mm_s),
         };
         let (feed, rapid, hold) = (&other.feed, &other.rapid, &other.feedhold);
+        let slope =
+            |f: &FeedSlope, i: usize| (if i < 2 { f.acc_mm_s2 } else { f.dec_mm_s2 }, f.ramps_s[i]);
         Self {
             v_max_mm_s: self.v_max_mm_s.min(other.v_max_mm_s),
             v_rapid_mm_s: self.v_rapid_mm_s.min(other.v_rapid_mm_s),
@@ -182,18 +185,26 @@ impl AxisDynamics {
             feed: FeedSlope {
                 acc_mm_s2: self.feed.acc_mm_s2.min(feed.acc_mm_s2),
                 dec_mm_s2: self.feed.dec_mm_s2.min(feed.dec_mm_s2),
-                ramps_s: std::array::from_fn(|i| self.feed.ramps_s[i].max(feed.ramps_s[i])),
+                ramps_s: std::array::from_fn(|i| {
+                    common_ramp_s(slope(&self.feed, i), slope(feed, i))
+                }),
             },
             rapid: RapidSlope {
                 acc_mm_s2: self.rapid.acc_mm_s2.min(rapid.acc_mm_s2),
-                ramp_s: self.rapid.ramp_s.max(rapid.ramp_s),
+                ramp_s: common_ramp_s(
+                    (self.rapid.acc_mm_s2, self.rapid.ramp_s),
+                    (rapid.acc_mm_s2, rapid.ramp_s),
+                ),
             },
             step_feed: step(&self.step_feed, &other.step_feed),
             step_rapid: step(&self.step_rapid, &other.step_rapid),
             feedhold: FeedholdSlope {
                 step_dec_mm_s2: self.feedhold.step_dec_mm_s2.min(hold.step_dec_mm_s2),
                 dec_mm_s2: self.feedhold.dec_mm_s2.min(hold.dec_mm_s2),
-                ramp_s: self.feedhold.ramp_s.max(hold.ramp_s),
+                ramp_s: common_ramp_s(
+                    (self.feedhold.dec_mm_s2, self.feedhold.ramp_s),
+                    (hold.dec_mm_s2, hold.ramp_s),
+                ),
             },
             a_trans_ratio: self.a_trans_ratio.min(other.a_trans_ratio),
             r_trans_ratio: self.r_trans_ratio.min(other.r_trans_ratio),
@@ -203,4 +214,13 @@ impl AxisDynamics {
                 .min(other.j_trans_tangential_mm_s3),
         }
     }
+}
+
+/// Ramp time in s of two axes that accelerate together, each given by its acceleration in mm/s2 and its ramp time in s: with the
+/// lower acceleration it gives the lower jerk.
+fn common_ramp_s((a, a_ramp_s): (f64, f64), (b, b_ramp_s): (f64, f64)) -> f64 {
+    // the axis with the lower jerk
+    let (acc, ramp_s, other) =
+        if a_ramp_s * b >= b_ramp_s * a { (a, a_ramp_s, b) } else { (b, b_ramp_s, a) };
+    if acc <= other { ramp_s } else { ramp_s * (other / acc) }
 }

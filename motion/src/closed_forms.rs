@@ -132,7 +132,7 @@ mod tests {
                     planner.push(Block { slope, ..block });
                 }
                 Next::Input => planner.finish(),
-                Next::Rest => return take() as f64 / count as f64,
+                Next::Rest | Next::Stopped => return take() as f64 / count as f64,
             }
         }
     }

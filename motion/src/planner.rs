@@ -37,6 +37,7 @@ mod replan;
 mod rests;
 mod sharp;
 mod spent;
+mod stopped;
 mod timed;
 
 use crate::ahead::Ahead;
@@ -58,6 +59,7 @@ use crate::tolerance::{Kernels, Monitor};
 use kontur_filters::time::CycleTime;
 use spent::Spent;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 pub(crate) use timed::Corners;
 
 /// One cycle of the path.
@@ -91,6 +93,8 @@ pub enum Next {
     /// At rest at the end of everything that was pushed before [`Planner::finish`], or where the path halts
     /// ([`Planner::halts`]).
     Rest,
+    /// Stopped by its host ([`Planner::stop_with`]): there are no more setpoints.
+    Stopped,
 }
 
 /// Look-ahead and interpolation of one channel.
@@ -126,6 +130,8 @@ pub struct Planner {
     active: Realtime,
     wanted: Realtime,
     spent: Spent,
+    /// Set by the host to end the output.
+    stop: Option<Arc<AtomicBool>>,
 }
 
 /// External influences on the path.
@@ -162,6 +168,7 @@ impl Planner {
             active: Realtime::default(),
             wanted: Realtime::default(),
             spent: Spent::default(),
+            stop: None,
         }
     }
 
@@ -294,6 +301,10 @@ impl Planner {
             self.replan();
         }
         loop {
+            // a plan whose search was cut short is never output
+            if self.is_stopped() {
+                return Ok(Next::Stopped);
+            }
             let k = self.setpoint.k + 1;
             if self.timeline.advance(k, self.cycle, &mut self.state) {
                 self.output(k);

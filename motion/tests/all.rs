@@ -25,6 +25,7 @@ mod slope_properties;
 mod slope_tables;
 mod spline;
 mod spline_noise;
+mod stopped;
 mod third_order_properties;
 mod third_order_reference;
 mod tilted;

@@ -46,7 +46,7 @@ fn drive(job: &Job, start: &[f64], blocks: &[Block], k: u64, distance_mm: f64) -
                 }
                 planner.resume();
             }
-            Next::Rest => return driven,
+            Next::Rest | Next::Stopped => return driven,
         }
         assert!(driven.out.len() < 100_000, "does not come to an end");
     }

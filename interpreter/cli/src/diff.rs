@@ -98,6 +98,7 @@ fn diff_rows(
         let b = open(&args.b, is_b, None, (args, console))?;
         (open(&args.a, is_a, Some(b.header()), (args, console))?, b)
     };
+    let every = align(&mut a, &mut b)?;
     let mut progress = console.progress();
     let mut comparison = Comparison::new(a.header(), b.header(), args.tolerance);
     while comparison.next(a.next()?, b.next()?) {
@@ -110,11 +111,36 @@ fn diff_rows(
         console.announce(message);
     }
     let aborted = failed(&names, [a.has_failed(), b.has_failed()]);
-    let outcome = comparison.finish();
+    let outcome = comparison.finish(every);
     let program = [(is_a, &args.a), (is_b, &args.b)].into_iter().find(|(trace, _)| !trace);
     let verdict = || verdict::of(&outcome, program.map(|(_, path)| path.as_path()));
     let done = Done { names: &names, outcome: &outcome, equal: outcome.equal, aborted };
     done.report(args.format, || text(&names, &outcome), verdict, console)
+}
+
+/// Thins out the side whose rows are a fraction of the time of the other's apart, as where one trace was written with
+/// `--decimate`; returns of how many rows of each side one is compared.
+fn align(a: &mut Table, b: &mut Table) -> Result<[u64; 2], Error> {
+    let (Some([start_a, next_a]), Some([start_b, next_b])) = (a.first_times()?, b.first_times()?)
+    else {
+        return Ok([1, 1]);
+    };
+    let steps = [next_a - start_a, next_b - start_b];
+    let ratio = steps[0].max(steps[1]) / steps[0].min(steps[1]);
+    let whole = ratio.round();
+    // times have six digits
+    let fits = (start_a - start_b).abs() < 1e-9 && (ratio - whole).abs() < 1e-6 * whole;
+    if !fits || !(2.0..1e9).contains(&whole) {
+        return Ok([1, 1]);
+    }
+    let every = whole as u64;
+    if steps[0] < steps[1] {
+        a.thin(every);
+        Ok([every, 1])
+    } else {
+        b.thin(every);
+        Ok([1, every])
+    }
 }
 
 /// The names of the runs that have failed.

@@ -93,6 +93,9 @@ pub fn answer(args: &TuneArgs, console: &mut Console) -> Result<Answer, Error> {
         cycle,
     };
     let rows = task.rows();
+    if rows.is_empty() {
+        return Err(Error::Usage(task.without_mode()));
+    }
     console.print(&task.text(&rows))?;
     let answer = match (&args.program, args.max_dev) {
         (Some(file), Some(max_dev_mm)) => program::answer(&task, args, file, max_dev_mm, console)?,

@@ -43,7 +43,7 @@ use super::decoder::Decoder;
 use super::fault::{Fault, Outcome};
 use crate::diag::{Condition, condition};
 use crate::suggest;
-use crate::syntax::ast::{Command, Ident, Span};
+use crate::syntax::ast::{Command, Span};
 pub(super) use messages::addition;
 pub(crate) use row::Row;
 use row::{Act, Call};
@@ -334,27 +334,18 @@ pub(super) fn is_known(command: &Command) -> bool {
     find(command).is_some()
 }
 
-/// A word of the program after a command, such as `X5` in `#TRAFO OFF X5`: commands have neither words of a letter and a
-/// number, nor a value after OFF.
-fn words_after(call: &Call<'_>) -> Option<Span> {
-    let is_word = |word: &&Ident| {
-        let mut letters = word.text.bytes();
-        letters.next().is_some_and(|b| b.is_ascii_alphabetic())
-            && letters.next().is_some_and(|b| b.is_ascii_digit() || b"+-.=".contains(&b))
-    };
-    let word = call.rest.iter().chain(&call.command.tail).find(is_word).map(|word| word.span);
-    let value = call.command.arguments.first().filter(|_| call.command.on == Some(false));
-    word.or(value.map(|value| value.span))
-}
-
 /// Executes a plain-text command.
 pub(super) fn execute(decoder: &mut Decoder, command: &Command) -> Outcome<()> {
     decoder.dialect.own_statement();
     let Some((row, count)) = find(command) else { return Err(unknown(command)) };
     let call = Call { command, name: row.name, rest: &command.words[count..] };
-    if let Some(span) = words_after(&call) {
-        let text = format!("{}: another word after it in its block", call.title());
-        return Err(Fault::new(Condition::WordsBehindCommand, text, span));
+    if !command.behind.is_empty() {
+        // reported with the form of the block
+        return Ok(());
+    }
+    if let (Some(value), Some(false)) = (command.arguments.first(), command.on) {
+        let text = format!("{}: a value after OFF", call.title());
+        return Err(Fault::new(Condition::WordsBehindCommand, text, value.span));
     }
     exceptions::fits_compensation(decoder, &call)?;
     match row.act {

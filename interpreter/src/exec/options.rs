@@ -89,7 +89,7 @@ pub struct GuardCommands {
 
 /// Ends a check or a run from another thread; clones share their state.
 ///
-/// Read before every block and between two groups of cycles. A stopped run is aborted without a message, because the caller who
+/// Read before every block and every cycle that is planned, and while a plan is searched. A stopped run is aborted without a message, because the caller who
 /// stops it knows the reason.
 #[derive(Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
@@ -98,6 +98,11 @@ impl Stop {
     /// Stops every run that has a clone.
     pub fn set(&self) {
         self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// What stops it, for parts that do not know this type.
+    pub(crate) fn flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
     }
 
     /// Whether it was stopped.

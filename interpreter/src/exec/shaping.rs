@@ -12,6 +12,7 @@ use crate::machine::issues;
 use crate::machine::{Axis, KernelPreset, Machine};
 use kontur_filters::fir::FirConfig;
 use kontur_filters::hsc::HscConfig;
+use kontur_filters::issue::FilterIssue;
 use kontur_filters::kernel::Kernel;
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
@@ -245,12 +246,13 @@ impl ShapingState {
                 found.push(d.axis(axis.number(), axis.name()));
             }
             let (kernel, issues) = config.design(cycle);
-            found.extend(issues.iter().map(|i| issues::filter(axis, None, i)));
+            let listed = listed.fir.is_some_and(|fir| fir.enable && fir.config == config);
+            found.extend(of_program(axis, listed, &issues));
             return shaped(ShapingSettings::Fir(config), kernel);
         }
         if let (Some(config), true) = (listed.hsc.map(|hsc| self.hsc(hsc)), self.hsc_on) {
             let (kernel, issues) = config.design(cycle);
-            found.extend(issues.iter().map(|i| issues::filter(axis, None, i)));
+            found.extend(of_program(axis, listed.hsc == Some(config), &issues));
             return shaped(ShapingSettings::Hsc(config), kernel);
         }
         if guard_on && fir.is_none() {
@@ -290,6 +292,13 @@ fn shaped(settings: ShapingSettings, kernel: Option<Kernel>) -> AxisShaping {
         Some(kernel) => AxisShaping { settings, kernel: Some(Arc::new(kernel)) },
         None => AxisShaping::default(),
     }
+}
+
+/// The conditions of a filter that the program switches on, except for warnings that were said with the lists: `listed`, the
+/// program uses the settings of a list that was checked.
+fn of_program(axis: &Axis, listed: bool, issues: &[FilterIssue]) -> Vec<Diagnostic> {
+    let found = issues.iter().map(|issue| issues::filter(axis, None, issue));
+    found.filter(|diagnostic| !listed || diagnostic.is_error()).collect()
 }
 
 fn with_axis(axis: &Axis, text: &str) -> String {

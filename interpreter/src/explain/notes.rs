@@ -56,6 +56,7 @@ const NOTES: &[Note] = &[
     Note("P-CHAN-00036", "", "7", &[]),
     Note("P-CHAN-00063", "groups: 0 motion, 4 plane, 12 units, 14 dimension, 23 arc centre, 25 centre correction", "91", &["P-AXIS-00255"]),
     Note("P-CHAN-00071", "", "1", &["#SLOPE"]),
+    Note("P-CHAN-00349", "1: a block shorter than its feed times the ramp times of a change of speed is planned together with the next ones, and then has the lowest limits of them all, also those of weights that are programmed behind it", "1", &["#SLOPE", "P-CHAN-00071"]),
     Note("P-CHAN-00439", "covers AX_DEV and PATH_DEV, only while G70 is active", "", &["#VIB GUARD", "#CONTOUR MODE", "G70"]),
     Note("P-STUP-00001", "", "1", &[]),
 ];

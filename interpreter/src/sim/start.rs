@@ -36,7 +36,7 @@ impl Simulation {
     ) -> Result<Self, Vec<Diagnostic>> {
         let cycle = machine.cycle;
         let (setups, diagnostics) = machine.chains();
-        let limit = TimeLimit::new(options.max_time_s, cycle);
+        let (limit, stop) = (TimeLimit::new(options.max_time_s, cycle), options.stop.flag());
         let on = Arc::clone(&machine);
         let (program, start, found) = Program::new(sources, program, on, options, structures);
         let n = machine.axes.len();
@@ -48,9 +48,11 @@ impl Simulation {
             .map(|a| Spindle::new(&a.dynamics()).within(a.speed_band()))
             .collect();
         let records = chains.all.iter().map(AxisChain::at_start).collect();
+        let mut planner = Planner::new(cycle, window, &start[..n]);
+        planner.stop_with(stop);
         let mut simulation = Self {
             smoothing: Smoothing::new(cycle),
-            planner: Planner::new(cycle, window, &start[..n]),
+            planner,
             targets: vec![0.0; chains.len()],
             batch: Batch::default(),
             totals: Totals {

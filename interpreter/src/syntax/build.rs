@@ -291,6 +291,16 @@ impl<'a> Builder<'a> {
     }
 }
 
+/// The words of a block from this byte on, behind its command.
+pub(super) fn words_behind(builder: &mut Builder<'_>, start: usize) -> Vec<Word> {
+    let read = [&" ".repeat(start), &builder.masked[start..]].concat();
+    let block = Grammar::parse(Rule::tolerant, &read).map(|pairs| builder.block(pairs));
+    match block.unwrap_or_default().body {
+        Body::Words(words) => words,
+        _ => Vec::new(),
+    }
+}
+
 impl From<Place> for super::ast::ExprKind {
     fn from(place: Place) -> Self {
         Self::Place(Box::new(place))

@@ -28,6 +28,8 @@ pub(super) enum Searched {
     Infeasible(Infeasible),
     /// Every plan ends too late.
     TooLate,
+    /// The host stops the planner.
+    Stopped,
 }
 
 impl Planner {
@@ -86,7 +88,7 @@ impl Planner {
                     given_up = true;
                     entries
                 }
-                Searched::TooLate => return Ok(()),
+                Searched::TooLate | Searched::Stopped => return Ok(()),
             };
             if !rests {
                 self.part(&mut entries, last_window);
@@ -142,6 +144,9 @@ impl Planner {
     ) -> Searched {
         let mut marks = Marks::default();
         loop {
+            if self.is_stopped() {
+                return Searched::Stopped;
+            }
             let placed = self.plan.place(window, forced, ends, usize::MAX, self.cycle);
             let mut entries = match placed {
                 Ok((entries, _)) => entries,
@@ -227,7 +232,10 @@ impl Planner {
             match self.search(&window, &forced, ends, Some(Vec::new()), &mut 0, f64::INFINITY) {
                 Searched::Kept(entries) => return Some(entries),
                 Searched::Divided(parts) => self.plan.divide(parts, &self.kernels, self.cycle),
-                Searched::GivenUp(..) | Searched::Infeasible(_) | Searched::TooLate => return None,
+                Searched::GivenUp(..)
+                | Searched::Infeasible(_)
+                | Searched::TooLate
+                | Searched::Stopped => return None,
             }
         }
     }

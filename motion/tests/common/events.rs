@@ -44,7 +44,7 @@ pub(crate) fn drive(
                 Some(b) => planner.push(b),
                 None => planner.finish(),
             },
-            Next::Rest => break,
+            Next::Rest | Next::Stopped => break,
         }
         assert!(out.len() < 1_000_000, "does not come to an end");
     }

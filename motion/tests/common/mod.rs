@@ -146,7 +146,7 @@ impl Job {
                     Some(b) => planner.push(b),
                     None => planner.finish(),
                 },
-                Next::Rest => break,
+                Next::Rest | Next::Stopped => break,
             }
             assert!(out.len() < 3_000_000, "a crawl");
         }

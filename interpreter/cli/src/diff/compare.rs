@@ -48,10 +48,12 @@ pub(super) struct ColumnOutcome {
 pub(super) struct Outcome {
     /// No difference beyond the tolerances, same columns, same number of rows, and at least one row.
     pub(super) equal: bool,
-    /// Rows of A.
+    /// Rows of A that were compared.
     pub(super) rows_a: u64,
-    /// Rows of B.
+    /// Rows of B that were compared.
     pub(super) rows_b: u64,
+    /// Of so many rows of A and B one was compared: more than 1 where the other trace has fewer rows in the same time.
+    pub(super) every: [u64; 2],
     /// First differing cell.
     pub(super) first: Option<Difference>,
     /// Cell with the largest excess over its tolerance.
@@ -125,6 +127,7 @@ impl Comparison {
             equal: true,
             rows_a: 0,
             rows_b: 0,
+            every: [1, 1],
             first: None,
             worst: None,
             shift_cycles: None,
@@ -223,9 +226,10 @@ impl Comparison {
         self.delays.take(a, b, equal);
     }
 
-    /// Completes the comparison.
-    pub(super) fn finish(mut self) -> Outcome {
+    /// Completes the comparison; `every`: see [`Outcome::every`].
+    pub(super) fn finish(mut self, every: [u64; 2]) -> Outcome {
         let o = &mut self.outcome;
+        o.every = every;
         let same_columns = o.only_a.is_empty() && o.only_b.is_empty();
         // two empty traces show nothing that could agree
         let rows = o.rows_a == o.rows_b && o.rows_a > 0;

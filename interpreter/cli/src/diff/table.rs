@@ -11,6 +11,7 @@ use kontur_interpreter::job::{Run, Sink};
 use kontur_interpreter::record::columns::Column;
 use kontur_interpreter::record::{self, Asked, columns};
 use kontur_interpreter::source::text::Text;
+use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::fs::File;
 use std::io::{self, Cursor, Read as _};
@@ -25,6 +26,12 @@ pub(super) struct Table {
     header: Vec<String>,
     row: ByteRecord,
     rows: Origin,
+    /// Rows that were read to find their distance in time.
+    ahead: VecDeque<ByteRecord>,
+    /// One row in so many is returned.
+    every: u64,
+    /// Rows to be passed over before the next one that is returned.
+    skip: u64,
 }
 
 enum Origin {
@@ -112,7 +119,7 @@ impl Table {
             let (header, rows) = super::parquet::Rows::open(path)?;
             unique(&name, &header)?;
             let rows = Origin::Parquet(Box::new(rows));
-            return Ok(Self { name, header, row: ByteRecord::new(), rows });
+            return Ok(Self::of(name, header, rows));
         }
         let file = File::open(path).map_err(|e| Error::io(&name, e))?;
         let text = Text::new(file).map_err(|e| Error::io(&name, e))?;
@@ -121,7 +128,7 @@ impl Table {
         let header: Vec<String> = header.iter().map(str::to_owned).collect();
         unique(&name, &header)?;
         let rows = Origin::File(Box::new(reader));
-        Ok(Self { name, header, row: ByteRecord::new(), rows })
+        Ok(Self::of(name, header, rows))
     }
 
     /// A run with the given columns or, without names, those of a trace by default. Columns that the run does not have
@@ -145,7 +152,19 @@ impl Table {
         // there is no column for the deviation in both directions
         let run = run.without_both_ways();
         let rows = Origin::Run(Box::new(Fresh { run, columns, rows, batch }));
-        Ok(Self { name, header, row: ByteRecord::new(), rows })
+        Ok(Self::of(name, header, rows))
+    }
+
+    fn of(name: String, header: Vec<String>, rows: Origin) -> Self {
+        Self {
+            name,
+            header,
+            row: ByteRecord::new(),
+            rows,
+            ahead: VecDeque::new(),
+            every: 1,
+            skip: 0,
+        }
     }
 
     /// Names of the columns.
@@ -153,21 +172,62 @@ impl Table {
         &self.header
     }
 
+    /// The times of the first two rows in s, before any row is taken; `None` if there are none.
+    ///
+    /// # Errors
+    /// As [`Self::next`].
+    pub(super) fn first_times(&mut self) -> Result<Option<[f64; 2]>, Error> {
+        while self.ahead.len() < 2 && self.read_row()? {
+            self.ahead.push_back(self.row.clone());
+        }
+        let Some(column) = self.header.iter().position(|name| name == "t_s") else {
+            return Ok(None);
+        };
+        let time = |row: usize| {
+            let cell = self.ahead.get(row)?.get(column)?;
+            std::str::from_utf8(cell).ok()?.parse::<f64>().ok()
+        };
+        Ok(time(0).zip(time(1)).map(|(first, second)| [first, second]))
+    }
+
+    /// Returns only the first one of every so many rows.
+    pub(super) fn thin(&mut self, every: u64) {
+        self.every = every;
+    }
+
     /// The next row.
     ///
     /// # Errors
     /// [`Error::Io`] if the file cannot be read or is not a table.
     pub(super) fn next(&mut self) -> Result<Option<&ByteRecord>, Error> {
+        if !self.take_row()? {
+            return Ok(None);
+        }
+        Ok(Some(&self.row))
+    }
+
+    /// Makes the next row that is returned the current one; false at the end.
+    fn take_row(&mut self) -> Result<bool, Error> {
+        let skipped = std::mem::replace(&mut self.skip, self.every.saturating_sub(1));
+        for _ in 0..=skipped {
+            if let Some(row) = self.ahead.pop_front() {
+                self.row = row;
+            } else if !self.read_row()? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Reads a row; false at the end.
+    fn read_row(&mut self) -> Result<bool, Error> {
         let found = match &mut self.rows {
             Origin::File(reader) => reader.read_byte_record(&mut self.row),
             #[cfg(feature = "parquet")]
-            Origin::Parquet(rows) => {
-                return Ok(rows.read(&mut self.row)?.then_some(&self.row));
-            }
+            Origin::Parquet(rows) => return rows.read(&mut self.row),
             Origin::Run(fresh) => fresh.read(&mut self.row),
         };
-        let found = found.map_err(|e| unreadable(&self.name, e))?;
-        Ok(found.then_some(&self.row))
+        found.map_err(|e| unreadable(&self.name, e))
     }
 
     /// Whether this was a run that was refused or has ended with an error.

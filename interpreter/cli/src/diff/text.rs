@@ -12,9 +12,23 @@ pub(super) fn text(names: &[String; 2], outcome: &Outcome) -> String {
     out
 }
 
+/// Says which rows were left out because the other side has none at their times.
+fn write_thinned(out: &mut String, o: &Outcome) -> std::fmt::Result {
+    for (side, every) in ["A", "B"].into_iter().zip(o.every) {
+        if every > 1 {
+            writeln!(
+                out,
+                "  rows   compared at equal times: one of every {every} rows of {side}, which has more in the same time"
+            )?;
+        }
+    }
+    Ok(())
+}
+
 fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::Result {
     if o.equal {
-        return writeln!(out, "equal: {} rows", o.rows_a);
+        writeln!(out, "equal: {} rows", o.rows_a)?;
+        return write_thinned(out, o);
     }
     writeln!(out, "different: {a} (A) and {b} (B)")?;
     if let Some(first) = &o.first {
@@ -28,6 +42,7 @@ fn write_text(out: &mut String, [a, b]: &[String; 2], o: &Outcome) -> std::fmt::
         [a, b] if a != b => writeln!(out, "  rows   {a} in A, {b} in B")?,
         _ => {}
     }
+    write_thinned(out, o)?;
     if let Some(times) = o.columns.iter().find(|c| c.column == "t_s") {
         let Difference { row, a, b, .. } = &times.first;
         let (a, b) = (brief(a), brief(b));

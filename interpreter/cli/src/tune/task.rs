@@ -69,6 +69,15 @@ impl Task {
         (1..=4).flat_map(|mode| self.of_mode(mode)).collect()
     }
 
+    /// Why there is no row.
+    pub(super) fn without_mode(&self) -> String {
+        format!(
+            "{} Hz: no mode of the Vibration Guard can be realised, its impulses would be less than the cycle of {} ms apart",
+            self.at_hz,
+            f64::from(self.cycle.us()) / 1000.0,
+        )
+    }
+
     pub(super) fn of_mode(&self, mode: u8) -> impl Iterator<Item = Row> {
         let best = self.band.best(mode, self.cycle);
         let settings = VibGuardSettings { mode, freq_hz: self.at_hz, damping: self.band.damping };

@@ -59,8 +59,7 @@ impl MotionState {
         }
         if on && !output.machine.axes.iter().any(Axis::has_feedforward) {
             let text = "G135 has no effect: feedforward is not enabled for any axis of the channel (P-AXIS-00223)";
-            let fault = Fault::new(Condition::ListNoEffect, text, span)
-                .hint("set vorsteuer.vorsteuerung to VEL in the axis list to enable it");
+            let fault = Fault::new(Condition::ListNoEffect, text, span).hint(ENABLE_FEEDFORWARD);
             output.report.note_once(Subject::G(135), fault);
         }
         self.feedforward.on = on;
@@ -106,6 +105,10 @@ impl MotionState {
         for (axis, value, span) in &words.axes {
             let percent = limited_weight(*value, *span, output.report);
             self.feedforward.weight_ratios[*axis] = percent / 100.0;
+            // weight 0 is what such an axis has anyway
+            if percent > 0.0 {
+                note_without_feedforward("G136", &output.machine.axes[*axis], *span, output.report);
+            }
         }
         output.contour.event(self.feedforward.event());
         Ok(())
@@ -286,6 +289,25 @@ pub(in crate::exec) fn limited_weight(percent: f64, span: Span, report: &mut Rep
             .note(Fault::new(Condition::FeedforwardLimit, text, span).with(|d| d.corrected(100.0)));
     }
     percent.min(100.0)
+}
+
+const ENABLE_FEEDFORWARD: &str = "set vorsteuer.vorsteuerung to VEL in the axis list to enable it";
+
+/// K-0075, once per axis and word, for feedforward of an axis or spindle without any (P-AXIS-00223).
+pub(in crate::exec) fn note_without_feedforward(
+    word: &str,
+    axis: &Axis,
+    span: Span,
+    report: &mut Report,
+) {
+    if axis.has_feedforward() {
+        return;
+    }
+    let (name, subject) = (axis.name(), format!("{word} {}", axis.name()));
+    let text =
+        format!("{word} has no effect on {name}: its feedforward is not enabled (P-AXIS-00223)");
+    let fault = Fault::new(Condition::ListNoEffect, text, span).hint(ENABLE_FEEDFORWARD);
+    report.note_once(subject.as_str(), fault);
 }
 
 /// 21426, 21427: the active tool, in mm, is shorter or thinner than the channel list demands (P-CHAN-00156, P-CHAN-00157).

@@ -1,6 +1,6 @@
 //! Commands: words, switches and groups of keys.
 
-use super::{Expr, ParameterIndex, Place, PlaceKind, Span};
+use super::{Expr, ParameterIndex, Place, PlaceKind, Span, Word};
 
 /// A name with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,11 +53,28 @@ pub struct Command {
     pub arguments: Vec<Expr>,
     /// Bracket groups: `#CS DEF[1][0,0,0]` has two.
     pub groups: Vec<Group>,
+    /// Words of the program behind it in its block, as `F500` in `#SLOPE [TYPE=STEP] F500`: an error (20450), after which a
+    /// check goes on with them.
+    pub behind: Vec<Word>,
     /// Place.
     pub span: Span,
 }
 
 impl Command {
+    /// Place of the first word behind the name that is one of the program, as `X5` in `#TRAFO OFF X5`, or its letter, as in
+    /// `#SCENE F=500`: no command has words of a letter and a number.
+    pub(crate) fn word_behind(&self) -> Option<Span> {
+        let with_number = |word: &&Ident| {
+            let mut letters = word.text.bytes();
+            letters.next().is_some_and(|b| b.is_ascii_alphabetic())
+                && letters.next().is_some_and(|b| b.is_ascii_digit())
+        };
+        let mut words = self.words.iter().skip(1).chain(&self.tail);
+        let letter = words.clone().next_back().filter(|word| word.text.len() == 1);
+        let letter = letter.filter(|_| !self.arguments.is_empty());
+        words.find(with_number).or(letter).map(|word| word.span)
+    }
+
     /// Whether the words up to `ON`/`OFF` are exactly these (`"CONTOUR MODE"`: separated by one blank).
     pub fn is(&self, name: &str) -> bool {
         let mut words = self.words.iter();

@@ -167,7 +167,8 @@ impl Builder<'_> {
     pub(super) fn command(&mut self, pair: Pair<'_, Rule>) -> Command {
         let span = self.span(&pair);
         let (words, tail, arguments, groups) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut command = Command { words, on: None, tail, arguments, groups, span };
+        let mut command =
+            Command { words, on: None, tail, arguments, groups, behind: Vec::new(), span };
         for part in pair.into_inner() {
             match part.as_rule() {
                 Rule::command_word => {

@@ -8,7 +8,7 @@ mod item;
 use super::{function, once};
 use crate::diag::Condition;
 use crate::exec::block::collected::Words;
-use crate::exec::block::modes::{limited_weight, weight_ratio};
+use crate::exec::block::modes::{limited_weight, note_without_feedforward, weight_ratio};
 use crate::exec::commands::keys::{SPINDLE_OVERRIDE, arguments};
 use crate::exec::commands::range::between;
 use crate::exec::decoder::Decoder;
@@ -66,6 +66,9 @@ impl MotionState {
                 }
             }
             SpindleItem::Feedforward(on) => {
+                if on {
+                    self.note_spindle_without_feedforward("G135", spindle, output, span);
+                }
                 self.spindles[spindle].feedforward = on;
                 self.spindle_feedforward(spindle, output.contour);
             }
@@ -76,10 +79,26 @@ impl MotionState {
             SpindleItem::Weight(percent) => {
                 let percent = limited_weight(percent, span, output.report);
                 self.spindles[spindle].weight_ratio = percent / 100.0;
+                if percent > 0.0 {
+                    self.note_spindle_without_feedforward("G136", spindle, output, span);
+                }
                 self.spindle_feedforward(spindle, output.contour);
             }
         }
         Ok(())
+    }
+
+    /// K-0075 for a configured spindle without feedforward.
+    fn note_spindle_without_feedforward(
+        &self,
+        word: &str,
+        spindle: usize,
+        output: &mut Output<'_>,
+        span: Span,
+    ) {
+        if let Some(index) = self.spindles[spindle].index {
+            note_without_feedforward(word, &output.machine.spindles[index], span, output.report);
+        }
     }
 
     /// M3, M4, M5 and M19; `positions`: beside M19.

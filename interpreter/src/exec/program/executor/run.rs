@@ -17,7 +17,7 @@ use crate::exec::step::{EndReason, SourceRef, Sync};
 use crate::exec::values::number::whole;
 use crate::source::Position;
 use crate::syntax::Parser;
-use crate::syntax::ast::{Block, BlockNumber, Body, Span};
+use crate::syntax::ast::{Block, BlockNumber, Body, Span, Word};
 use std::sync::Arc;
 
 /// Number of messages and functions between two motions up to which the path does not stop.
@@ -26,8 +26,8 @@ use std::sync::Arc;
 const EVENTS_MAX: usize = 1000;
 
 /// What is said of a block without certain words.
-const OF_MISSING_WORDS: [Condition; 3] =
-    [Condition::FeedZero, Condition::AxisMissing, Condition::ArcRadiusZero];
+const OF_MISSING_WORDS: [Condition; 4] =
+    [Condition::FeedZero, Condition::AxisMissing, Condition::ArcRadiusZero, Condition::Syntax];
 
 impl Executor {
     /// Executes one block.
@@ -323,6 +323,9 @@ impl Executor {
                 let levels = self.levels.len();
                 self.command(command, entry);
                 self.modal_cycle(levels);
+                if !command.behind.is_empty() && self.decoder.checking {
+                    self.words_behind(&command.behind, block.span);
+                }
             }
             Body::Control(control) => {
                 self.decoder.dialect.own_statement();
@@ -338,6 +341,17 @@ impl Executor {
                 self.after(after);
             }
         }
+    }
+
+    /// Words behind a command are an error: only a check goes on with what they say, and of them it reports errors only.
+    fn words_behind(&mut self, words: &[Word], block: Span) {
+        let before = self.decoder.report.take_faults();
+        let after = self.decoder.execute_words(words, block);
+        let mut found = self.decoder.report.take_faults();
+        found.retain(Fault::is_error);
+        self.decoder.report.extend(before);
+        self.decoder.report.extend(found);
+        self.after(after);
     }
 
     /// Programs called at the end of a block run before the block leaves its level or ends the program.
