@@ -289,14 +289,7 @@ impl Collector {
             let kinds = Rest::ALL.iter().zip(self.rests);
             kinds.filter(|(r, _)| **r == rest).map(|(_, cycles)| seconds(cycles)).sum()
         };
-        let stop = |stop: &SettledStop| StopSummary {
-            axis: facts.axes.get(stop.axis).map(|a| a.name.clone()).unwrap_or_default(),
-            time_s: seconds(stop.k),
-            settling_s: stop.settling_s,
-            file: name(stop.source.file),
-            line: stop.source.line,
-            block: stop.source.block,
-        };
+        let stop = |stop: &SettledStop| StopSummary::of(stop, &facts);
         Summary {
             state: if totals.aborted { State::Aborted } else { State::Finished },
             cycles: self.cycles,
@@ -343,6 +336,19 @@ impl Collector {
             program: facts.program,
             machine: facts.machine,
             cycle_us: facts.cycle_us,
+        }
+    }
+}
+
+impl StopSummary {
+    fn of(stop: &SettledStop, facts: &Facts) -> Self {
+        Self {
+            axis: facts.axes.get(stop.axis).map(|a| a.name.clone()).unwrap_or_default(),
+            time_s: stop.k as f64 * f64::from(facts.cycle_us) / 1e6,
+            settling_s: stop.settling_s,
+            file: facts.files.name(stop.source.file),
+            line: stop.source.line,
+            block: stop.source.block,
         }
     }
 }

@@ -3,8 +3,9 @@
 use kontur_filters::time::CycleTime;
 use kontur_interpreter::diag::Diagnostic;
 use kontur_interpreter::machine::{Axis, ListFiles, Machine, Override};
-use kontur_kit::rows::{Row, fits, is, rows, settings};
-use std::fmt::{Debug, Write as _};
+use kontur_kit::pieces;
+use kontur_kit::rows::{Row, fits, is, rows, settings, wrong};
+use std::fmt::Debug;
 
 /// The folder of the sample machines.
 struct Samples;
@@ -140,8 +141,7 @@ fn faults(row: &Row) -> Vec<String> {
     let written = [&row.settings[..], &settings(&left)].concat();
     let Outcome(machine, messages) = outcome(row, &left);
     let mut wrong = Vec::new();
-    let (expected, texts) =
-        row.expected.split_at(row.expected.find('"').unwrap_or(row.expected.len()));
+    let (expected, texts) = row.words_and_texts();
     let (expected, other) = match expected.split_once("like ") {
         Some((words, settings)) => (words.trim_end_matches("un"), Some(settings)),
         None => (expected, None),
@@ -193,22 +193,8 @@ fn faults(row: &Row) -> Vec<String> {
 
 #[test]
 fn settings_do_what_their_rows_say() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/lists");
-    let mut wrong = String::new();
-    for file in std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()) {
-        if file.extension().is_none_or(|e| e != "txt") {
-            continue;
-        }
-        let rows = rows(&std::fs::read_to_string(&file).unwrap());
-        assert!(!rows.is_empty(), "{} has no row", file.display());
-        for row in rows {
-            let faults = faults(&row);
-            if !faults.is_empty() {
-                let _ = writeln!(wrong, "{}\n    {}", row.text, faults.join("; "));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    let wrong = wrong(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/lists"), faults).unwrap();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// A wrong row is found, whatever is wrong in it.
@@ -222,27 +208,13 @@ fn wrong_rows_are_found() {
     assert!(right(&format!("{order} -> 50911 \"order\"")));
     let of_axes = "*:position.kv_per_s=50 X,Y:encoder=Motor X:exact_stop.settling_s=0.2";
     assert!(right(&format!("{order} -> 50911 {of_axes} channel:dynamics.slope=Trapez")));
-    for wrong in [
-        "ok",
-        "50912",
-        "50911@Y",
-        "50911@X@P-AXIS-00141",
-        "50911@X@P-AXIS-00140@error",
-        "50911@X@P-AXIS-00140@warning@-",
-        "50911 refused",
-        "50911 X.filter[0].order=5",
-        "50911 filters 0 0 0 0",
-        "50911 kernel 7 - - -",
-        "50911 additional plain",
-        "50911 modulo true false false true",
-        "50911 *:position.kv_per_s=49",
-        "50911 X:encoder=Direct",
-        "50911 X:never.there=1",
-        "50911 channel:dynamics.slope=Step",
-        "50911 like X.filter[0]: enable=1, order=5",
-        "50911 unlike X.filter[0]: enable=1, order=6",
-        "50911 \"never said\"",
-    ] {
+    for wrong in pieces(
+        "ok ¦ 50912 ¦ 50911@Y ¦ 50911@X@P-AXIS-00141 ¦ 50911@X@P-AXIS-00140@error ¦ 50911@X@P-AXIS-00140@warning@-
+50911 refused ¦ 50911 X.filter[0].order=5 ¦ 50911 filters 0 0 0 0 ¦ 50911 kernel 7 - - - ¦ 50911 additional plain
+50911 modulo true false false true ¦ 50911 *:position.kv_per_s=49 ¦ 50911 X:encoder=Direct ¦ 50911 X:never.there=1
+50911 channel:dynamics.slope=Step ¦ 50911 like X.filter[0]: enable=1, order=5 ¦ 50911 unlike X.filter[0]: enable=1, order=6
+50911 \"never said\"",
+    ) {
         assert!(!right(&format!("{order} -> {wrong}")), "{wrong}");
     }
     assert!(

@@ -4,6 +4,7 @@
 //! an integer. A thread starts inside a cycle, where the spindle passes its mark. Boundaries of spans and blocks fall
 //! inside cycles, and the rest of such a cycle is spent in the next span. The last cycle of a motion is its exact end.
 
+mod moment;
 mod reason;
 
 use crate::asked::Asked;
@@ -13,6 +14,7 @@ use crate::lookahead::Span;
 use crate::profile::{Profile, State};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
+pub(crate) use moment::Moment;
 use reason::Low;
 pub(crate) use reason::is_at;
 use smallvec::SmallVec;
@@ -24,48 +26,6 @@ pub(crate) const SAME_LENGTH: f64 = 1e-12;
 
 /// Parts of a block whose ends are closer together than this, in mm, end at the same point.
 pub(crate) const SAME_END_MM: f64 = 1e-9;
-
-/// A moment: seconds after a cycle tick, kept as a sum with its rounding error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Moment {
-    pub(crate) origin: u64,
-    after_s: f64,
-    error_s: f64,
-}
-
-impl Moment {
-    pub(crate) fn tick(origin: u64) -> Self {
-        Self { origin, ..Self::default() }
-    }
-
-    /// Neumaier sum, so that a motion of a million spans stays on its ticks.
-    pub(crate) fn plus(mut self, s: f64) -> Self {
-        let sum = self.after_s + s;
-        self.error_s +=
-            if self.after_s >= s { (self.after_s - sum) + s } else { (s - sum) + self.after_s };
-        self.after_s = sum;
-        self
-    }
-
-    pub(crate) fn seconds(self) -> f64 {
-        self.after_s + self.error_s
-    }
-
-    /// Whether both are whole cycles apart: motions that start there have the same states in their cycles.
-    pub(crate) fn is_whole_cycles_from(self, other: Self) -> bool {
-        (self.after_s, self.error_s) == (other.after_s, other.error_s)
-    }
-
-    /// The moment in cycles since the start of the program.
-    pub(crate) fn cycles(self, cycle: CycleTime) -> f64 {
-        self.origin as f64 + self.seconds() / cycle.seconds()
-    }
-
-    /// First tick that is not before this moment: `ceil(D / T - 1e-9)`.
-    pub(crate) fn next_tick(self, cycle: CycleTime) -> u64 {
-        self.origin + (self.seconds() / cycle.seconds() - 1e-9).ceil().max(0.0) as u64
-    }
-}
 
 /// Findings of earlier examinations about an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,9 +4,9 @@
 //! The bound is computed independently here: second-order path following (velocity and acceleration of every block, no
 //! jerk limit) by a backward and a forward pass on a fine grid.
 
-use crate::common::{Job, arc, axis, channel, even, line, peaks, second_order_time, tangent};
+use crate::common::{Job, arc, axis, channel, even, line, peaks, tangent};
 use kontur_filters::time::CycleTime;
-use kontur_kit::{Random, count};
+use kontur_kit::{Pen, Random, count, second_order_time};
 use kontur_motion::axis::{AxisDynamics, FeedSlope};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Trapez};
 use kontur_motion::block::{Block, ContourMode, ContourSettings, SlopeKind};
@@ -34,27 +34,21 @@ fn limits(r: &mut Random) -> AxisDynamics {
 
 /// Lines and arcs; most corners are sharp, some arcs continue tangentially.
 fn contour(r: &mut Random) -> Vec<Path> {
-    let (mut at, mut heading) = ([0.0_f64, 0.0], 0.0);
+    let mut pen = Pen::default();
     let count = 2 + (r.ratio() * 10.0) as usize;
     let arcs = r.pick(&[0.0, 0.3, 0.6]);
     let smallest = r.pick(&[0.03, 0.3]);
     (0..count)
         .map(|_| {
-            heading += r.between(-2.9, 2.9) * if r.chance(0.2) { 0.0 } else { 1.0 };
-            let (sin, cos) = libm::sincos(heading);
-            let from = at;
+            pen.heading += r.between(-2.9, 2.9) * if r.chance(0.2) { 0.0 } else { 1.0 };
+            let from = pen.at;
             if r.chance(arcs) {
                 let (radius, sweep) = (r.log(0.3, 15.0), r.between(0.2, 3.0));
-                let side = r.pick(&[-1.0, 1.0]);
-                let centre_mm = [at[0] - side * radius * sin, at[1] + side * radius * cos];
-                heading += side * sweep;
-                let (sin, cos) = libm::sincos(heading);
-                at = [centre_mm[0] + side * radius * sin, centre_mm[1] - side * radius * cos];
-                arc(&from, &at, centre_mm, side * sweep)
+                let sweep = r.pick(&[-1.0, 1.0]) * sweep;
+                let centre_mm = pen.turn(radius, sweep);
+                arc(&from, &pen.at, centre_mm, sweep)
             } else {
-                let l = r.log(smallest, 30.0);
-                at = [at[0] + l * cos, at[1] + l * sin];
-                line(&from, &at)
+                line(&from, &pen.go(r.log(smallest, 30.0)))
             }
         })
         .collect()
@@ -239,15 +233,12 @@ fn the_last_digit_of_a_coordinate_decides_nothing() {
 fn chords(r: &mut Random) -> Vec<Path> {
     let length = r.log(0.02, 2.0);
     let noise = r.pick(&[0.0, 0.1, 0.3]) * length;
-    let (mut at, mut heading, mut bend) = ([0.0_f64, 0.0], 0.0, r.between(-0.3, 0.3));
-    let mut points = vec![at];
+    let (mut pen, mut bend) = (Pen::default(), r.between(-0.3, 0.3));
+    let mut points = vec![pen.at];
     for _ in 0..r.pick(&[8, 30, 80]) {
         bend += r.between(-0.05, 0.05);
-        heading += bend;
-        let (sin, cos) = libm::sincos(heading);
-        let l = length * r.between(0.4, 1.4);
-        at = [at[0] + l * cos, at[1] + l * sin];
-        points.push([at[0] + r.between(-noise, noise), at[1] + r.between(-noise, noise)]);
+        pen.heading += bend;
+        points.push(pen.go(length * r.between(0.4, 1.4)).map(|x| x + r.between(-noise, noise)));
     }
     points.windows(2).filter(|w| w[0].iter().ne(&w[1])).map(|w| line(&w[0], &w[1])).collect()
 }

@@ -1,7 +1,7 @@
 //! Properties of every program: random contours, blocks and limits.
 
 use crate::common::{Job, arc, axis, channel, even, line};
-use kontur_kit::{Random, count};
+use kontur_kit::{Pen, Random, count};
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope};
@@ -23,27 +23,19 @@ fn limits(r: &mut Random) -> AxisDynamics {
 
 /// Lines between 1e-4 mm and 1 m, every fifth block an arc.
 fn contour(r: &mut Random, count: usize) -> Vec<Path> {
-    let mut at = [0.0_f64, 0.0];
-    let mut heading: f64 = 0.0;
+    let mut pen = Pen::default();
     let smooth = r.ratio() < 0.5;
     let long = if r.ratio() < 0.3 { 1000.0 } else { 5.0 };
     (0..count)
         .map(|_| {
-            heading += if smooth { 0.2 * (r.ratio() - 0.5) } else { 6.0 * (r.ratio() - 0.5) };
-            let (sin, cos) = libm::sincos(heading);
-            let from = at;
+            pen.heading += if smooth { 0.2 * (r.ratio() - 0.5) } else { 6.0 * (r.ratio() - 0.5) };
+            let from = pen.at;
             if r.ratio() < 0.2 {
                 let (radius, sweep) = (r.log(0.05, 50.0), 4.0 * (r.ratio() - 0.5));
-                let side = sweep.signum();
-                let centre_mm = [at[0] - side * radius * sin, at[1] + side * radius * cos];
-                heading += sweep;
-                let (sin, cos) = libm::sincos(heading);
-                at = [centre_mm[0] + side * radius * sin, centre_mm[1] - side * radius * cos];
-                arc(&from, &at, centre_mm, sweep)
+                let centre_mm = pen.turn(radius, sweep);
+                arc(&from, &pen.at, centre_mm, sweep)
             } else {
-                let l = r.log(1e-4, long);
-                at = [at[0] + l * cos, at[1] + l * sin];
-                line(&from, &at)
+                line(&from, &pen.go(r.log(1e-4, long)))
             }
         })
         .collect()
@@ -84,6 +76,14 @@ fn load(job: &Job, out: &[Setpoint]) -> (f64, f64, f64) {
     (v, a, low)
 }
 
+/// Asserts that a run keeps the limits of the axes and ends where its last path does; returns the largest acceleration over its limit.
+fn stays_within(job: &Job, out: &[Setpoint], last: &Path, name: &str) -> f64 {
+    let (v, a, low) = load(job, out);
+    assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{name}: {v} {a} {low}");
+    assert_eq!(out[out.len() - 1].position[..], last.end()[..], "{name}");
+    a
+}
+
 /// No axis is faster than its limit, and its acceleration stays within what the path, its curvature and a kink may use
 /// together, each of them up to the limit of the axis.
 #[test]
@@ -97,13 +97,8 @@ fn velocity_and_acceleration_of_the_axes() {
         for slope in kinds() {
             let job = job(axes.clone(), slope);
             let out = run(&job, &paths, feed);
-            let (v, a, low) = load(&job, &out);
-            worst = worst.max(a);
-            assert!(v <= 1.0 + 1e-6, "{program} {slope:?}: velocity {v}");
-            assert!(a <= 3.0, "{program} {slope:?}: acceleration {a}");
-            assert!(low >= 0.0, "{program} {slope:?}: path velocity {low}");
-            let end = paths[paths.len() - 1].end();
-            assert_eq!(out[out.len() - 1].position[..], end[..], "{program} {slope:?}");
+            let name = format!("{program} {slope:?}");
+            worst = worst.max(stays_within(&job, &out, &paths[paths.len() - 1], &name));
         }
     }
     println!("largest acceleration: {worst:.3} of the limit");
@@ -131,10 +126,8 @@ fn changes_of_feed_with_and_without_late_braking() {
                     block.late_braking = late;
                 }
                 let out = job.run(&[0.0, 0.0], blocks.into_iter());
-                let (v, a, low) = load(&job, &out);
                 let name = format!("{program} {slope:?} {late} {count}");
-                assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{name}: {v} {a} {low}");
-                assert_eq!(out[out.len() - 1].position[..], paths[count - 1].end()[..], "{name}");
+                stays_within(&job, &out, &paths[count - 1], &name);
                 assert!(out.len() <= cycles.saturating_add(1), "{name}: {} {cycles}", out.len());
                 cycles = cycles.min(out.len());
             }
@@ -184,9 +177,7 @@ fn a_program_may_be_cut_anywhere() {
             let job = job(axes.clone(), slope);
             for cut in 1..=paths.len() {
                 let out = run(&job, &paths[..cut], feed);
-                let (v, a, low) = load(&job, &out);
-                assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{program} {cut}: {v} {a}");
-                assert_eq!(out[out.len() - 1].position[..], paths[cut - 1].end()[..]);
+                stays_within(&job, &out, &paths[cut - 1], &format!("{program} {cut}"));
             }
         }
     }
@@ -315,9 +306,7 @@ fn a_final_speed_is_never_too_high() {
         if [167, 203, 363].contains(&program) {
             let job = Job { window: 10, ..job(axes, kinds()[5]) };
             let out = run(&job, &paths, feed);
-            let (v, a, low) = load(&job, &out);
-            assert!(v <= 1.0 + 1e-6 && a <= 3.0 && low >= 0.0, "{program}: {v} {a} {low}");
-            assert_eq!(out[out.len() - 1].position[..], paths[119].end()[..]);
+            stays_within(&job, &out, &paths[119], &program.to_string());
         }
     }
 }
@@ -376,14 +365,12 @@ fn constant_ramp_times_on_short_blocks() {
     for program in 0..count(20) {
         let turn = r.log(0.002, 0.3);
         let length = r.log(0.01, 0.5);
-        let mut at = [0.0_f64, 0.0];
+        let mut pen = Pen::default();
         let paths: Vec<Path> = (0..150)
             .map(|i| {
-                let from = at;
-                let (sin, cos) = libm::sincos(if i % 2 == 0 { turn } else { -turn });
-                let l = length * (0.5 + r.ratio());
-                at = [at[0] + l * cos, at[1] + l * sin];
-                line(&from, &at)
+                let from = pen.at;
+                pen.heading = if i % 2 == 0 { turn } else { -turn };
+                line(&from, &pen.go(length * (0.5 + r.ratio())))
             })
             .collect();
         let way_mm: f64 = paths.iter().map(Path::length).sum();

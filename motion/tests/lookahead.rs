@@ -74,16 +74,17 @@ fn samples_of_a_short_block() {
     }
 }
 
+/// Points on a circle, each turned by an angle in rad.
+fn arc_points(radius: f64, turn: f64, count: u32) -> Vec<[f64; 2]> {
+    let at = |i| libm::sincos(f64::from(i) * turn);
+    (0..count).map(at).map(|(sin, cos)| [radius * cos, radius * sin]).collect()
+}
+
 /// Polygons of a circle: whatever the window ends with, the path continues after it without a rest.
 #[test]
 fn a_smooth_contour_never_rests() {
     for (radius, chord) in [(1.0, 0.02), (5.0, 0.1 / 3.0), (5.0, 0.1), (20.0, 0.05)] {
-        let points: Vec<[f64; 2]> = (0..700)
-            .map(|i| {
-                let (sin, cos) = libm::sincos(f64::from(i) * chord / radius);
-                [radius * cos, radius * sin]
-            })
-            .collect();
+        let points = arc_points(radius, chord / radius, 700);
         for (kind, window, feed) in [
             (Hsc, 120, 200.0),
             (Hsc, 120, 80.0),
@@ -170,12 +171,7 @@ fn a_contour_takes_no_longer_than_its_blocks_with_a_rest_after_each() {
 /// speed is a limit along it, not the stop at an end.
 #[test]
 fn what_holds_the_speed_inside_a_contour_is_named_there() {
-    let points: Vec<[f64; 2]> = (0..=300)
-        .map(|i| {
-            let (sin, cos) = libm::sincos(f64::from(i) * std::f64::consts::TAU / 300.0);
-            [10.0 * cos, 10.0 * sin]
-        })
-        .collect();
+    let points = arc_points(10.0, std::f64::consts::TAU / 300.0, 301);
     for kind in [Hsc, Trapez] {
         let dynamics = machine(2, 1.0, 3500.0, 0.03);
         let out = Job { dynamics, window: 1000, ..Job::new(1.0, kind) }.drive(&points, &[200.0]);

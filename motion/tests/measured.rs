@@ -1,14 +1,13 @@
 //! The measured deviation of the output against brute force: no point of a contour is missed by more than was measured.
 
-use crate::common::{axis, channel};
+use crate::common::{arc, at, axis, channel, line};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_kit::Random;
-use kontur_motion::axis::AxisVec;
+use kontur_kit::{Random, from_polyline};
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, Feed, Slope};
 use kontur_motion::deviation::Meter;
-use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
+use kontur_motion::path::Path;
 use kontur_motion::planner::{Next, Planner};
 use kontur_motion::tolerance::Kernels;
 use std::sync::Arc;
@@ -16,36 +15,23 @@ use std::sync::Arc;
 /// Number of points of each block that are compared.
 const POINTS: u32 = 200;
 
-/// Largest component per axis of the shortest vectors from a point to the lines between set points.
-fn missed(point: [f64; 2], set: &[[f64; 2]]) -> [f64; 2] {
-    let mut best = (f64::INFINITY, [0.0; 2]);
-    for line in set.windows(2) {
-        let way = [0, 1].map(|i| line[1][i] - line[0][i]);
-        let off = [0, 1].map(|i| point[i] - line[0][i]);
-        let square = way[0] * way[0] + way[1] * way[1];
-        let share = if square > 0.0 { (way[0] * off[0] + way[1] * off[1]) / square } else { 0.0 };
-        let vector = [0, 1].map(|i| share.clamp(0.0, 1.0) * way[i] - off[i]);
-        let length = libm::hypot(vector[0], vector[1]);
-        if length < best.0 {
-            best = (length, vector.map(f64::abs));
-        }
-    }
-    best.1
+/// Components per axis of the shortest vector from a point to the lines between set points.
+fn missed(point: &[f64], set: &[[f64; 2]]) -> [f64; 2] {
+    let vector = from_polyline(point, set);
+    [vector[0].abs(), vector[1].abs()]
 }
 
 /// A line or, for half of the paths, an arc.
 fn path(r: &mut Random, from: [f64; 2], to: [f64; 2]) -> Path {
-    let [start, end] = [from, to].map(|p| AxisVec::from_slice(&p));
     if r.ratio() < 0.5 {
-        return Path::Line(LinePath::new(start, end, &[]).unwrap());
+        return line(&from, &to);
     }
     let half = [0, 1].map(|i| 0.5 * (to[i] - from[i]));
     // half of the sweep, and the way from the middle of the chord to the centre as a multiple of half the chord
     let sweep_rad = r.between(0.2, 2.0) * r.pick(&[-1.0, 1.0]);
     let aside = 1.0 / libm::tan(0.5 * sweep_rad);
     let centre_mm = [from[0] + half[0] - aside * half[1], from[1] + half[1] + aside * half[0]];
-    let shape = ArcShape { plane: [0, 1], centre_mm, sweep_rad };
-    Path::Arc(ArcPath::new(start, end, shape, &[]).unwrap())
+    arc(&from, &to, centre_mm, sweep_rad)
 }
 
 /// Runs random lines and arcs with a filter, and returns per axis what was measured and what is missed of them.
@@ -98,14 +84,12 @@ fn run(r: &mut Random) -> ([f64; 2], [f64; 2]) {
         }
     }
     let (mut most, mut s) = ([0.0_f64; 2], 0.0);
-    let mut point = AxisVec::zeros(2);
     for path in &paths {
         for i in 0..=POINTS {
             let along = path.length() * f64::from(i) / f64::from(POINTS);
-            path.position(along, &mut point);
             let passed = ways.partition_point(|way| *way <= s + along + 1e-9) - 1;
             let held = &set[passed..set.len().min(passed + reach + 3)];
-            let of_it = missed([point[0], point[1]], held);
+            let of_it = missed(&at(path, along), held);
             most = [0, 1].map(|i| most[i].max(of_it[i]));
         }
         s += path.length();

@@ -1,6 +1,6 @@
 //! With `AX_DEV`, less restrictive settings never take longer.
 
-use crate::common::contour;
+use crate::common::{contour, points};
 use crate::same_time::{Case, Points, dynamics};
 use kontur_filters::vib_guard::VibGuardSettings;
 use kontur_kit::{Random, count, seed};
@@ -92,23 +92,13 @@ fn chords_at_rising_feeds() {
 /// there was too short, and for this reason the line was driven at 3 mm/s.
 #[test]
 fn a_rest_that_is_too_short_slows_no_line_down() {
-    let points = vec![
-        [0.0, 0.0, 0.0],
-        [-14.6754, -5.5062, -1.2333],
-        [-14.9406, -5.4449, -1.2742],
-        [-20.0077, -5.1506, -1.9478],
-        [-21.6876, -5.6454, -1.8057],
-        [-29.8923, -3.3343, -3.4580],
-        [-29.8326, -3.3053, -3.4451],
-        [-29.8045, -4.1591, -3.3083],
-        [-29.8852, -4.5249, -3.2363],
-        [-29.9577, -4.4387, -3.2279],
-        [-30.0175, -4.1902, -3.1920],
-        [-21.2777, -1.8343, -1.6285],
-        [-7.8871, -1.2411, -0.2678],
-        [-7.5097, -1.0943, -0.2444],
-        [-7.6105, -1.2908, -0.2242],
-    ];
+    let points = points(
+        "0 0 0; -14.6754 -5.5062 -1.2333; -14.9406 -5.4449 -1.2742; -20.0077 -5.1506 -1.9478; -21.6876 -5.6454 -1.8057; \
+         -29.8923 -3.3343 -3.4580; -29.8326 -3.3053 -3.4451; -29.8045 -4.1591 -3.3083; -29.8852 -4.5249 -3.2363; \
+         -29.9577 -4.4387 -3.2279; -30.0175 -4.1902 -3.1920; -21.2777 -1.8343 -1.6285; -7.8871 -1.2411 -0.2678; \
+         -7.5097 -1.0943 -0.2444; -7.6105 -1.2908 -0.2242",
+    );
+    let points = points.iter().map(|p| [p[0], p[1], p[2]]).collect();
     let guard = VibGuardSettings { mode: 4, freq_hz: 17.211, damping: 0.023 };
     let case = case((guard, 0.007), (4.7, 4695.3, 0.024), points);
     let case = Case { feed_mm_s: 85.516, ..case };

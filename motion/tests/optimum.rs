@@ -2,7 +2,7 @@
 //!
 //! `data/optimum.csv` is made by `reference/table.py`, by convex programming; it shares no code with the planner.
 
-use crate::common::{Job, axis, channel, even};
+use crate::common::{Job, axis, channel, even, numbers, points};
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{self, Hsc, Trapez};
 
@@ -12,16 +12,26 @@ pub(crate) const CYCLE_US: u32 = 100;
 /// Kinks may use the velocity jump of 1 ms of acceleration.
 const KINK_WEIGHT: f64 = 10.0;
 
-struct Row {
-    name: String,
-    axes: Vec<AxisDynamics>,
-    feeds: Vec<f64>,
-    points: Vec<Vec<f64>>,
+/// A contour of a table of references, and its least time.
+pub(crate) struct Row {
+    pub(crate) name: String,
+    pub(crate) axes: Vec<AxisDynamics>,
+    pub(crate) feeds: Vec<f64>,
+    /// 0 in a table without this column.
+    pub(crate) path_dev_mm: f64,
+    pub(crate) points: Vec<Vec<f64>>,
     least_s: f64,
 }
 
+impl Row {
+    /// Time of so many cycles over the least one.
+    pub(crate) fn ratio(&self, cycles: usize) -> f64 {
+        cycles as f64 * f64::from(CYCLE_US) * 1e-6 / self.least_s
+    }
+}
+
 /// The machines of the tables, with a weight of kinks.
-pub(crate) fn machine(name: &str, kink_weight: f64) -> Vec<AxisDynamics> {
+fn machine(name: &str, kink_weight: f64) -> Vec<AxisDynamics> {
     let of = |acc: f64, ramp: f64, v_max_mm_s: f64| AxisDynamics {
         v_max_mm_s,
         feed: even(acc, ramp),
@@ -33,21 +43,20 @@ pub(crate) fn machine(name: &str, kink_weight: f64) -> Vec<AxisDynamics> {
     }
 }
 
-pub(crate) fn numbers(text: &str) -> Vec<f64> {
-    text.split(' ').map(|n| n.parse().unwrap()).collect()
-}
-
-fn table() -> Vec<Row> {
-    let text = include_str!("data/optimum.csv");
+/// Rows of a table, for machines with a weight of kinks.
+pub(crate) fn table(text: &str, kink_weight: f64) -> Vec<Row> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let rows = reader.records().map(|record| {
         let record = record.unwrap();
+        let cells: Vec<&str> = record.iter().collect();
+        let [contour, least_s] = [2, 1].map(|behind| cells[cells.len() - behind]);
         Row {
-            name: format!("{} {}", &record[0], &record[1]),
-            axes: machine(&record[1], KINK_WEIGHT),
-            feeds: numbers(&record[2]),
-            points: record[3].split(';').map(numbers).collect(),
-            least_s: record[4].parse().unwrap(),
+            name: format!("{} {}", cells[0], cells[1]),
+            axes: machine(cells[1], kink_weight),
+            feeds: numbers(cells[2]),
+            path_dev_mm: if cells.len() > 5 { cells[3].parse().unwrap() } else { 0.0 },
+            points: points(contour),
+            least_s: least_s.parse().unwrap(),
         }
     });
     rows.collect()
@@ -60,14 +69,13 @@ fn ratio(row: &Row, kind: SlopeKind) -> f64 {
         cycle_us: CYCLE_US,
         ..Job::new(KINK_WEIGHT, kind)
     };
-    let out = job.drive(&row.points, &row.feeds);
-    (out.len() - 1) as f64 * f64::from(CYCLE_US) * 1e-6 / row.least_s
+    row.ratio(job.drive(&row.points, &row.feeds).len() - 1)
 }
 
 /// Median and largest ratio of the random contours, largest of the surfaces, spirals and circles.
 #[test]
 fn machine_time_is_close_to_the_optimum() {
-    let rows = table();
+    let rows = table(include_str!("data/optimum.csv"), KINK_WEIGHT);
     // TRAPEZ arrives at every limiting kink with zero acceleration, the optimum does not
     for (kind, most_random) in [(Hsc, 1.05), (Trapez, 1.06)] {
         let (mut random, mut regular) = (Vec::new(), 0.0_f64);

@@ -62,44 +62,23 @@ impl Case {
 /// to a crawl because of events at their ends (60788 cycles instead of 3726 with rests).
 #[test]
 fn filters_that_differ() {
+    use Motion::{Arc, Line};
+    #[rustfmt::skip]
     let cases = [
-        Case {
-            kind: SlopeKind::Hsc,
-            feed_mm_s: 517.0 / 60.0,
-            ax_dev_mm: 0.01,
-            guards: [(1, 80.0), (4, 30.0)],
-            motions: vec![
-                Motion::Line([3.0772, 0.8207]),
-                Motion::Line([2.6368, 8.6852]),
-                Motion::Arc(
-                    [3.194_906_582_522_628, 9.003_556_145_234_363],
-                    [2.831_380_402_907_233_6, 8.992_466_544_414_718],
-                    -4.117_373_902_294_325,
-                ),
-                Motion::Arc(
-                    [4.345_260_265_154_726, 9.149_599_581_684_37],
-                    [3.777_099_168_545_849, 9.021_316_305_963_323],
-                    3.333_159_668_784_183,
-                ),
-            ],
-        },
-        Case {
-            kind: SlopeKind::Sin2,
-            feed_mm_s: 2284.0 / 60.0,
-            ax_dev_mm: 0.01,
-            guards: [(3, 80.0), (1, 15.0)],
-            motions: vec![
-                Motion::Line([0.102, -0.0003]),
-                Motion::Line([1.4996, 0.3836]),
-                Motion::Arc(
-                    [2.235_060_618_983_289, -4.758_906_061_790_845],
-                    [2.193_089_027_158_829, -2.141_064_323_900_048],
-                    -3.393_635_054_613_586_7,
-                ),
-            ],
-        },
+        (SlopeKind::Hsc, 517.0, [(1, 80.0), (4, 30.0)], vec![
+            Line([3.0772, 0.8207]),
+            Line([2.6368, 8.6852]),
+            Arc([3.194906582522628, 9.003556145234363], [2.8313804029072336, 8.992466544414718], -4.117373902294325),
+            Arc([4.345260265154726, 9.14959958168437], [3.777099168545849, 9.021316305963323], 3.333159668784183),
+        ]),
+        (SlopeKind::Sin2, 2284.0, [(3, 80.0), (1, 15.0)], vec![
+            Line([0.102, -0.0003]),
+            Line([1.4996, 0.3836]),
+            Arc([2.235060618983289, -4.758906061790845], [2.193089027158829, -2.141064323900048], -3.3936350546135867),
+        ]),
     ];
-    for case in cases {
+    for (kind, feed, guards, motions) in cases {
+        let case = Case { kind, feed_mm_s: feed / 60.0, ax_dev_mm: 0.01, guards, motions };
         let [plain, rests] = [false, true].map(|rests| case.cycles(rests));
         assert!(plain as f64 <= 1.02 * rests as f64, "{plain} cycles, with rests {rests}");
     }

@@ -4,7 +4,7 @@ use crate::common::{Job, axis, channel, even};
 use kontur_filters::kernel::{Kernel, Tap};
 use kontur_filters::time::CycleTime;
 use kontur_filters::vib_guard::VibGuardSettings;
-use kontur_kit::{Random, environment};
+use kontur_kit::{Pen, Random, environment};
 use kontur_motion::axis::StepSlope;
 use kontur_motion::block::SlopeKind::{self, Step, Trapez};
 use kontur_motion::block::Tolerance;
@@ -54,13 +54,11 @@ impl Case {
         let ramp_s = r.between(0.1, 1.0) * feed_mm_s / acc_mm_s2 / 2.0_f64.sqrt();
         // every line is long enough for the feed
         let least = feed_mm_s * (feed_mm_s / acc_mm_s2 + ramp_s);
-        let (mut heading, mut at) = (r.between(-3.1, 3.1), [0.0; 2]);
-        let mut points = vec![at];
+        let mut pen = Pen { heading: r.between(-3.1, 3.1), ..Pen::default() };
+        let mut points = vec![pen.at];
         for _ in 0..2 + (5.0 * r.ratio()) as usize {
-            let length = least * r.log(1.0, 30.0) * 1.01 + 0.01;
-            at = [at[0] + length * libm::cos(heading), at[1] + length * libm::sin(heading)];
-            points.push(at);
-            heading += if r.chance(0.3) { r.between(-0.3, 0.3) } else { r.between(-3.1, 3.1) };
+            points.push(pen.go(least * r.log(1.0, 30.0) * 1.01 + 0.01));
+            pen.heading += if r.chance(0.3) { r.between(-0.3, 0.3) } else { r.between(-3.1, 3.1) };
         }
         let kernel = kernel(r, cycle_us);
         let tolerance_mm = r.log(1e-4, 1e-1);

@@ -1,7 +1,7 @@
 //! Rounded coordinates under the B-spline: speed, ripple, jerk, and the tolerance in both directions.
 
 use crate::common::{circle, norm};
-use crate::spline::{fast, splined};
+use crate::spline::{driven, fast, splined};
 use kontur_kit::{Random, environment, from_polyline};
 use kontur_motion::block::{Block, SplineSettings};
 use kontur_motion::path::Path;
@@ -37,12 +37,8 @@ fn judged(out: &[Setpoint]) -> Judged {
 #[test]
 fn a_rounded_circle_runs_as_an_exact_one() {
     let job = fast(2);
-    let settings = SplineSettings { path_dev_mm: 0.05, ..SplineSettings::default() };
     for chord in [0.01, 0.05, 0.1, 0.3] {
-        let run = |points: &[Vec<f64>]| {
-            let blocks = splined(&job, settings, points, 100.0);
-            judged(&job.run(&points[0], blocks.into_iter()))
-        };
+        let run = |points: &[Vec<f64>]| judged(&driven(&job, 0.05, points, 100.0));
         let exact = circle(10.0, chord);
         let want = run(&exact);
         for decimals in [3, 4] {
@@ -63,11 +59,8 @@ fn small_circles_in_tiny_chords() {
     for radius in [0.5, 0.7, 1.0, 2.0] {
         for chord in [0.01, 0.02] {
             for path_dev_mm in [0.003, 0.01, 0.05] {
-                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-                let cycles = |points: &[Vec<f64>]| {
-                    let blocks = splined(&job, settings, points, 200.0);
-                    judged(&job.run(&points[0], blocks.into_iter())).cycles as f64
-                };
+                let cycles =
+                    |points: &[Vec<f64>]| driven(&job, path_dev_mm, points, 200.0).len() as f64;
                 let exact = circle(radius, chord);
                 let (want, here) = (cycles(&exact), cycles(&rounded(&exact, 3)));
                 let most = if path_dev_mm < 0.01 { 1.25 } else { 1.05 };
@@ -94,10 +87,8 @@ fn rounded_rotary_axes_cost_no_time() {
             vec![x, 0.1 * x, z, 20.0 * libm::cos(0.2 * x), 0.4 * x + 5.0 * libm::sin(0.1 * x)]
         })
         .collect();
-    let run = |points: &[Vec<f64>]| {
-        let blocks = splined(&job, SplineSettings::default(), points, 80.0);
-        judged(&job.run(&points[0], blocks.into_iter()))
-    };
+    let path_dev_mm = SplineSettings::default().path_dev_mm;
+    let run = |points: &[Vec<f64>]| judged(&driven(&job, path_dev_mm, points, 80.0));
     let (want, here) = (run(&exact), run(&rounded(&exact, 3)));
     assert!(here.cycles <= want.cycles + 3, "{} {}", here.cycles, want.cycles);
     assert!(here.jerk < 1.3 * want.jerk, "{} {}", here.jerk, want.jerk);

@@ -2,7 +2,7 @@
 //!
 //! The deviation is measured independently, from setpoints, kernel taps and the corners of the program.
 
-use crate::common::{self, Job, deviation, filtered};
+use crate::common::{self, Job, deviation, filtered, points};
 use crate::promise::of_run;
 use kontur_filters::fir::{FirConfig, FirKind};
 use kontur_filters::time::CycleTime;
@@ -11,10 +11,10 @@ use kontur_motion::block::Tolerance;
 use kontur_motion::deviation::{Meter, Unkept};
 use kontur_motion::planner::{Next, Planner};
 
-const SQUARE: [&[f64]; 5] = [&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], &[0.0, 1.0], &[0.0, 0.0]];
+const SQUARE: &str = "0 0; 1 0; 1 1; 0 1; 0 0";
 
 /// Largest deviation of a run from the contour, in either direction, and the number of cycles.
-fn worst(job: &Job, points: &[&[f64]], feed: f64) -> (f64, usize) {
+fn worst(job: &Job, points: &[Vec<f64>], feed: f64) -> (f64, usize) {
     let out = job.drive(points, &[feed]);
     let [leaves, misses] = of_run(job, points, &out);
     (leaves.0.max(misses.0), out.len() - 1)
@@ -28,7 +28,7 @@ fn square_keeps_the_tolerance_in_every_mode() {
                 for kind in [Trapez, Sin2, Hsc, Step] {
                     let job = Job { cycle_us, ..Job::new(1.0, kind) };
                     let job = job.guarded(mode, freq, 0.1, Some(0.01));
-                    let (dev, cycles) = worst(&job, &SQUARE, 4000.0 / 60.0);
+                    let (dev, cycles) = worst(&job, &points(SQUARE), F4000);
                     println!(
                         "mode {mode} {freq} Hz {cycle_us} us {kind:?}: {dev:.7} {}",
                         cycles as f64 * f64::from(cycle_us) * 1e-6
@@ -40,75 +40,21 @@ fn square_keeps_the_tolerance_in_every_mode() {
     }
 }
 
-/// Ten typical programs: flat and sharp corners, short blocks, three axes, reversals.
-const PROGRAMS: [(&str, &[&[f64]]); 10] = [
-    ("right angle", &[&[0.0, 0.0], &[4.0, 0.0], &[4.0, 4.0]]),
-    ("flat corners", &[&[0.0, 0.0], &[3.0, 0.0], &[6.0, 0.4], &[9.0, 1.6], &[12.0, 3.6]]),
-    ("sharp corners", &[&[0.0, 0.0], &[5.0, 0.0], &[1.0, 1.0], &[6.0, 2.0], &[2.0, 3.0]]),
-    ("there and back", &[&[0.0, 0.0], &[3.0, 1.0], &[0.0, 0.0], &[-2.0, 1.0], &[0.0, 0.0]]),
-    (
-        "stairs",
-        &[
-            &[0.0, 0.0],
-            &[1.2, 0.0],
-            &[1.2, 1.2],
-            &[2.4, 1.2],
-            &[2.4, 2.4],
-            &[3.6, 2.4],
-            &[3.6, 3.6],
-        ],
-    ),
-    (
-        "in space",
-        &[&[0.0, 0.0, 0.0], &[3.0, 0.0, 1.0], &[3.0, 2.0, 0.0], &[0.0, 3.0, 2.0], &[1.0, 0.0, 0.0]],
-    ),
-    (
-        "star",
-        &[
-            &[0.0, 3.0],
-            &[1.763, -2.427],
-            &[-2.853, 0.927],
-            &[2.853, 0.927],
-            &[-1.763, -2.427],
-            &[0.0, 3.0],
-        ],
-    ),
-    (
-        "octagon",
-        &[
-            &[2.0, 0.0],
-            &[1.414, 1.414],
-            &[0.0, 2.0],
-            &[-1.414, 1.414],
-            &[-2.0, 0.0],
-            &[-1.414, -1.414],
-            &[0.0, -2.0],
-            &[1.414, -1.414],
-            &[2.0, 0.0],
-        ],
-    ),
-    (
-        "long and short",
-        &[&[0.0, 0.0], &[8.0, 0.0], &[8.0, 0.5], &[0.0, 0.5], &[0.0, 1.0], &[8.0, 1.0]],
-    ),
-    (
-        "zigzag",
-        &[
-            &[0.0, 0.0],
-            &[1.5, 0.8],
-            &[3.0, 1.6],
-            &[4.5, 0.0],
-            &[6.0, 0.8],
-            &[7.5, 1.6],
-            &[9.0, 0.0],
-            &[10.5, 0.8],
-            &[12.0, 1.6],
-        ],
-    ),
-];
+/// The square and ten typical programs: flat and sharp corners, short blocks, three axes, reversals.
+const PROGRAMS: &str = "square: 0 0; 1 0; 1 1; 0 1; 0 0
+right angle: 0 0; 4 0; 4 4
+flat corners: 0 0; 3 0; 6 0.4; 9 1.6; 12 3.6
+sharp corners: 0 0; 5 0; 1 1; 6 2; 2 3
+there and back: 0 0; 3 1; 0 0; -2 1; 0 0
+stairs: 0 0; 1.2 0; 1.2 1.2; 2.4 1.2; 2.4 2.4; 3.6 2.4; 3.6 3.6
+in space: 0 0 0; 3 0 1; 3 2 0; 0 3 2; 1 0 0
+star: 0 3; 1.763 -2.427; -2.853 0.927; 2.853 0.927; -1.763 -2.427; 0 3
+octagon: 2 0; 1.414 1.414; 0 2; -1.414 1.414; -2 0; -1.414 -1.414; 0 -2; 1.414 -1.414; 2 0
+long and short: 0 0; 8 0; 8 0.5; 0 0.5; 0 1; 8 1
+zigzag: 0 0; 1.5 0.8; 3 1.6; 4.5 0; 6 0.8; 7.5 1.6; 9 0; 10.5 0.8; 12 1.6";
 
-fn contours() -> impl Iterator<Item = (&'static str, &'static [&'static [f64]])> {
-    std::iter::once(("square", &SQUARE[..])).chain(PROGRAMS)
+fn contours() -> impl Iterator<Item = (&'static str, Vec<Vec<f64>>)> {
+    PROGRAMS.lines().map(|line| line.split_once(": ").unwrap()).map(|(name, at)| (name, points(at)))
 }
 
 const F4000: f64 = 4000.0 / 60.0;
@@ -121,7 +67,7 @@ pub(crate) fn machine(axes: usize, ramp_s: f64) -> Job {
 
 /// Smallest number of cycles with the same speed at all corners that keeps the tolerance, by brute force; up to the
 /// speed at which a single right angle exceeds it three times.
-fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usize> {
+fn best_uniform(job: &Job, points: &[Vec<f64>], feed: f64, tol: f64) -> Option<usize> {
     const SPEEDS: u32 = 90;
     let kernel = &job.kernels[0];
     let m1_s = kernel.m1_cycles() * f64::from(job.cycle_us) * 1e-6;
@@ -130,13 +76,13 @@ fn best_uniform(job: &Job, points: &[&[f64]], feed: f64, tol: f64) -> Option<usi
             .windows(2)
             .enumerate()
             .map(|(i, w)| {
-                let mut block = job.line(i as u64, w[0], w[1], feed);
+                let mut block = job.line(i as u64, &w[0], &w[1], feed);
                 block.end_velocity_mm_s = Some(v);
                 block.tolerance = Tolerance::default();
                 block
             })
             .collect();
-        let out = job.run(points[0], blocks.into_iter());
+        let out = job.run(&points[0], blocks.into_iter());
         let keeps = filtered(&out, &job.kernels).iter().all(|p| deviation(p, points) <= tol);
         keeps.then_some(out.len() - 1)
     };
@@ -156,9 +102,9 @@ fn no_slower_than_the_best_uniform_corner_speed() {
             (4, 30.0, 0.05, 0.05),
         ] {
             let job = machine(points[0].len(), ramp_s).guarded(mode, freq, 0.1, Some(tol));
-            let (dev, cycles) = worst(&job, points, F4000);
+            let (dev, cycles) = worst(&job, &points, F4000);
             assert!(dev <= tol, "{name}: {dev}");
-            let best = best_uniform(&job, points, F4000, tol);
+            let best = best_uniform(&job, &points, F4000, tol);
             println!("{name} mode {mode} {freq} Hz: {cycles} cycles, uniform {best:?}");
             if let Some(best) = best {
                 compared += 1;
@@ -176,7 +122,7 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
         for (mode, freq) in [(1, 40.0), (2, 60.0), (3, 20.0), (4, 30.0)] {
             let drive = |ax_dev| {
                 let job = machine(points[0].len(), 0.03).guarded(mode, freq, 0.1, ax_dev);
-                let out = job.drive(points, &[F4000]);
+                let out = job.drive(&points, &[F4000]);
                 let bits: Vec<[u64; 4]> = out
                     .iter()
                     .map(|s| [s.s_mm, s.v_mm_s, s.a_mm_s2, s.j_mm_s3].map(f64::to_bits))
@@ -186,7 +132,7 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
                 (bits, places)
             };
             let job = machine(points[0].len(), 0.03).guarded(mode, freq, 0.1, None);
-            let free = worst(&job, points, F4000).0;
+            let free = worst(&job, &points, F4000).0;
             assert!(free > 1e-3, "{name}: {free}");
             let plain = drive(None);
             // 6 % more, because any candidate for the shortest vector counts
@@ -199,21 +145,20 @@ fn a_tolerance_that_is_kept_anyway_changes_nothing() {
 /// A windowed sinc overshoots at every start and stop, on a straight line as well, and more where the path turns back.
 #[test]
 fn negative_weights_keep_the_tolerance_too() {
-    let straight: &[&[f64]] = &[&[0.0, 0.0], &[5.0, 1.0]];
-    let back: &[&[f64]] = &[&[0.0, 0.0], &[10.0, 0.0], &[-3.0, 0.0], &[-3.0, 0.015]];
     let cycle = CycleTime::from_us(2000).unwrap();
-    for (name, points) in [("straight", straight), ("back", back), ("square", &SQUARE[..])] {
+    for contour in ["0 0; 5 1", "0 0; 10 0; -3 0; -3 0.015", SQUARE] {
+        let points = points(contour);
         for (order, fcut_hz) in [(40, 100.0), (73, 13.6), (148, 32.3)] {
             for tol in [0.0014, 0.01] {
                 let fir = FirConfig { order, fcut_hz, ..FirConfig::new(FirKind::WindowedSinc) };
                 let mut job = machine(2, 0.01);
                 job.cycle_us = 2000;
                 job.kernels = vec![fir.design(cycle).0.unwrap()];
-                let (free, _) = worst(&job, points, F4000);
+                let (free, _) = worst(&job, &points, F4000);
                 job.tolerance = Tolerance { ax_dev_mm: Some(tol), acc_fact: 1.0 };
-                let (dev, cycles) = worst(&job, points, F4000);
-                println!("{name} order {order} {fcut_hz} Hz: free {free}, kept {dev}, {cycles}");
-                assert!(dev <= tol, "{name} order {order} {fcut_hz} Hz: {dev} > {tol}");
+                let (dev, cycles) = worst(&job, &points, F4000);
+                println!("{contour} order {order} {fcut_hz} Hz: free {free}, kept {dev}, {cycles}");
+                assert!(dev <= tol, "{contour} order {order} {fcut_hz} Hz: {dev} > {tol}");
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use kontur::console::Console;
 use kontur::{Exit, run_with};
+use kontur_kit::rows::settings;
 use std::ffi::OsString;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -76,18 +77,24 @@ impl Folder {
     }
 
     /// Runs `kontur`; words that start with `@` are files of the folder.
-    pub fn call(&self, words: &[&str]) -> Output {
-        let word =
-            |word: &&str| word.strip_prefix('@').map_or((*word).to_owned(), |f| self.path(f));
-        command(words.iter().map(word))
+    pub fn call(&self, words: &[impl AsRef<str>]) -> Output {
+        let word = |word: &str| word.strip_prefix('@').map_or(word.to_owned(), |f| self.path(f));
+        command(words.iter().map(|it| word(it.as_ref())))
     }
 
     /// The summary of a run of `part.nc` that finishes.
-    pub fn summary(&self, more: &[&str]) -> serde_json::Value {
-        let done = self.call(&[&["run", "@part.nc", "--summary", "json"], more].concat());
+    pub fn summary(&self, more: &[impl AsRef<str>]) -> serde_json::Value {
+        let words = ["run", "@part.nc", "--summary", "json"].into_iter();
+        let words: Vec<&str> = words.chain(more.iter().map(AsRef::as_ref)).collect();
+        let done = self.call(&words);
         assert_eq!(done.exit, Exit::Finished, "{}", done.err);
         serde_json::from_str(&done.out).unwrap()
     }
+}
+
+/// Settings in the form of the tables as words of the command line.
+pub fn set(text: &str) -> Vec<String> {
+    settings(text).into_iter().flat_map(|setting| ["--set".to_owned(), setting]).collect()
 }
 
 /// A table with a header.

@@ -62,6 +62,18 @@ impl Run {
         self.records.iter().map(|r| f(&r.axes[i])).collect()
     }
 
+    /// Set positions of an axis over all cycles, and their differences per second up to the third.
+    pub fn derivatives(&self, axis: usize) -> [Vec<f64>; 4] {
+        let rate = |x: &[f64]| -> Vec<f64> {
+            x.windows(2).map(|w| (w[1] - w[0]) / self.cycle_s).collect()
+        };
+        let set = self.axis(axis, |a| a.set);
+        let velocity = rate(&set);
+        let acceleration = rate(&velocity);
+        let jerk = rate(&acceleration);
+        [set, velocity, acceleration, jerk]
+    }
+
     /// Whether nothing shapes an axis: set and interpolated position are the same bits in every cycle.
     pub fn is_unshaped(&self, axis: usize) -> bool {
         self.records.iter().all(|r| r.axes[axis].set.to_bits() == r.axes[axis].ipo.to_bits())
@@ -135,25 +147,13 @@ impl<const N: usize> Settings for &[&str; N] {
     }
 }
 
-impl Settings for &[&str] {
+impl<S: AsRef<str>> Settings for &[S] {
     fn overrides(&self) -> Vec<Override> {
         parsed(self)
     }
 }
 
-impl Settings for &[String] {
-    fn overrides(&self) -> Vec<Override> {
-        parsed(self)
-    }
-}
-
-impl Settings for &Vec<&str> {
-    fn overrides(&self) -> Vec<Override> {
-        parsed(self)
-    }
-}
-
-impl Settings for &Vec<String> {
+impl<S: AsRef<str>> Settings for &Vec<S> {
     fn overrides(&self) -> Vec<Override> {
         parsed(self)
     }

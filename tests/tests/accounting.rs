@@ -3,8 +3,11 @@
 mod sweeps;
 
 use kontur::Exit;
-use kontur_tests::command::{Folder, near};
+use kontur_tests::command::{Folder, near, set};
 use serde_json::Value;
+
+/// No words.
+const NONE: [&str; 0] = [];
 
 const PART: &str = "N10 G01 X10 F6000\nN20 L corner.nc\nN30 X0 Y0\nM30\n";
 /// Its corner is the point of the largest deviation of the guard from the contour.
@@ -70,7 +73,7 @@ fn the_ideal_time_is_that_of_the_path() {
 /// waits for that motion, which a feedhold can hold.
 #[test]
 fn arrival_begins_after_the_last_motion() {
-    let summary = |text: &str| Folder::new(&[("part.nc", text)]).summary(&[]);
+    let summary = |text: &str| Folder::new(&[("part.nc", text)]).summary(&NONE);
     let alone = summary("G01 Y10 F600\nM30\n")["arrival_s"].as_f64().unwrap();
     let axis = "Y[INDP_ASYN G90 G01 FEED=600 POS=10]\nG01 X1 F3000\nM30\n";
     near(&summary(axis)["arrival_s"], alone, 2e-3);
@@ -88,7 +91,7 @@ fn arrival_begins_after_the_last_motion() {
 fn dwells_and_rapids() {
     let text = "N10 G01 X10 F6000\nN20 G04 0.5\nN30 G00 X0 Y5\nN40 #TIME 0.25\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
-    let summary = folder.summary(&[]);
+    let summary = folder.summary(&NONE);
     near(&summary["dwell_s"], 0.75, 2e-3);
     near(&summary["ideal_duration_s"], 0.1 + 10.0 / 1000.0, 1e-9);
     let text = folder.call(&["run", "@part.nc"]).out;
@@ -106,16 +109,15 @@ fn dwells_and_rapids() {
 }
 
 /// The vendor's example of the production time calculation: M07 takes 0.5 s, M08 1.3 s, M03 0.5 s.
-const DECLARED: [&str; 8] = [
-    "--set",
-    "channel.m_prozess_zeit[7]=500000",
-    "--set",
-    "channel.m_prozess_zeit[8]=1300000",
-    "--set",
-    "channel.spindel[0].m3_prozess_zeit=500000",
-    "--set",
-    "channel.spindel[0].s_prozess_zeit=200000",
-];
+const DECLARED: &str = "channel: m_prozess_zeit[7]=500000, m_prozess_zeit[8]=1300000, \
+                        spindel[0].m3_prozess_zeit=500000, spindel[0].s_prozess_zeit=200000";
+
+/// Summaries of `part.nc` with settings, without and with `--techno-times`; the trace of the latter is `a.csv`.
+fn both(folder: &Folder, settings: &str) -> [Value; 2] {
+    let words = set(settings);
+    let on = ["--techno-times", "-o", "@a.csv"].map(str::to_owned);
+    [folder.summary(&words), folder.summary(&[&words[..], &on].concat())]
+}
 
 /// With `--techno-times` the path waits for them, and the duration grows by exactly that time; without it the summary names them.
 #[test]
@@ -123,16 +125,12 @@ fn declared_durations_are_waited_for() {
     // functions of one block go to the machine together: the longest duration counts; S belongs to M3 of its block
     let text = "M7\nM8\nM3 S600\nM7 M8\nH3\nS700\nT5\nG01 X1 F1000\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
-    assert!(folder.summary(&[])["not_counted"].as_array().unwrap().contains(&"M8".into()));
-    let of_h_and_t = ["channel.h_prozess_zeit[3]=250000", "channel.tool.prozess_zeit=750000"];
-    let of_h_and_t = of_h_and_t.iter().flat_map(|set| ["--set", set]);
-    let declared: Vec<&str> = DECLARED.into_iter().chain(of_h_and_t).collect();
-    let off = folder.summary(&declared);
-    let on = folder.summary(&[&declared[..], &["--techno-times"]].concat());
+    assert!(folder.summary(&NONE)["not_counted"].as_array().unwrap().contains(&"M8".into()));
+    let [off, on] =
+        both(&folder, &format!("{DECLARED}, h_prozess_zeit[3]=250000, tool.prozess_zeit=750000"));
     near(&on["technology_s"], 0.5 + 1.3 + 0.5 + 1.3 + 0.25 + 0.2 + 0.75, 1e-9);
     near(&off["technology_s"], 0.0, 0.0);
-    let duration = |s: &serde_json::Value| s["duration_s"].as_f64().unwrap();
-    assert!((duration(&on) - duration(&off) - 4.8).abs() < 1e-9);
+    near(&on["duration_s"], off["duration_s"].as_f64().unwrap() + 4.8, 1e-9);
     assert_eq!(on["not_counted"].as_array().unwrap().len(), 0, "{on}");
     let named = off["not_counted"].to_string();
     for w in [
@@ -150,22 +148,15 @@ fn declared_durations_are_waited_for() {
 #[test]
 fn durations_of_stops_and_ends() {
     let folder = Folder::new(&[("part.nc", "N10 M1 X100 G01 F6000\nM0\nX0\nG04 0.5\nM30\n")]);
-    let set = |m: u32, us: u32| {
-        [format!("channel.m_synch[{m}]=0x2"), format!("channel.m_prozess_zeit[{m}]={us}")]
-    };
-    let settings = [set(0, 500_000), set(1, 800_000), set(30, 200_000)].concat();
-    let words: Vec<&str> = settings.iter().flat_map(|s| ["--set", s]).collect();
-    let on = folder.summary(&[&words[..], &["--techno-times"]].concat());
+    let waits = "channel: m_synch[0]=0x2, m_synch[1]=0x2, m_synch[30]=0x2";
+    let times = "m_prozess_zeit[0]=500000, m_prozess_zeit[1]=800000, m_prozess_zeit[30]=200000";
+    let [off, on] = both(&folder, &format!("{waits}, {times}"));
     near(&on["technology_s"], 1.5, 1e-9);
-    let off = folder.summary(&words);
-    assert!(
-        (on["duration_s"].as_f64().unwrap() - off["duration_s"].as_f64().unwrap() - 1.5).abs()
-            < 1e-9
-    );
+    near(&on["duration_s"], off["duration_s"].as_f64().unwrap() + 1.5, 1e-9);
     let named = off["not_counted"].to_string();
     assert!(named.contains("M1 (0.8 s each by P-CHAN-00040)"), "{named}");
     let stops = ["M01 (until the operator continues)", "M00 (until the operator continues)"];
-    assert_eq!(folder.summary(&[])["not_counted"], serde_json::json!(stops));
+    assert_eq!(folder.summary(&NONE)["not_counted"], serde_json::json!(stops));
 }
 
 /// Where the path waits for M25 depends on its kind of synchronisation; N40 takes 0.75 s at its feed, so with MVS_SNS nothing is
@@ -182,13 +173,11 @@ fn kinds_of_synchronisation() {
         ("MVS_SNS", 1_200_000, 0.45, "75.0000000"),
         ("MNS_SNS", 500_000, 0.5, "75.0000000"),
     ] {
-        let kind = format!("channel.m_synch[25]={kind}");
-        let time = format!("channel.m_prozess_zeit[25]={us}");
-        let words = ["--set", &kind, "--set", &time, "--techno-times", "-o", "@a.csv"];
-        let summary = folder.summary(&[&words[..], &["--signals", "path,ipo"]].concat());
+        let settings = format!("channel: m_synch[25]={kind}, m_prozess_zeit[25]={us}");
+        let [off, summary] = both(&folder, &settings);
         near(&summary["technology_s"], wait_s, 1e-9);
         // without the option, the functions for which the control would wait are named
-        let named = folder.summary(&words[..4])["not_counted"].as_array().unwrap().len();
+        let named = off["not_counted"].as_array().unwrap().len();
         assert_eq!(named, usize::from(!kind.ends_with("NO_SYNCH") && !kind.ends_with("MOS")));
         let table = folder.table("a.csv");
         let rows = table.numbers("v_mm_s").into_iter().zip(table.texts("X_ipo_mm"));
@@ -204,9 +193,7 @@ fn kinds_of_synchronisation() {
 fn functions_that_take_time_stop_the_path() {
     let text = "G01 X10 F6000\nX20 M7\nX30\nX40 M5\nX50\nM30\n";
     let folder = Folder::new(&[("part.nc", text)]);
-    let m5 = "channel.spindel[0].m5_prozess_zeit=250000";
-    let words = [&DECLARED[..], &["--set", m5, "--techno-times", "-o", "@a.csv"]];
-    let summary = folder.summary(&words.concat());
+    let [_, summary] = both(&folder, &format!("{DECLARED}, spindel[0].m5_prozess_zeit=250000"));
     near(&summary["technology_s"], 0.75, 1e-9);
     let table = folder.table("a.csv");
     let (lines, x, v) = (table.texts("line"), table.texts("X_ipo_mm"), table.numbers("v_mm_s"));

@@ -2,7 +2,7 @@
 
 use kontur_interpreter::record::CycleRecord;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::{Run, Settings, machine, run_on, run_with_inputs, sample_machine};
+use kontur_tests::{Run, Settings, machine, run_on, sample_machine};
 
 /// Z is not one of the main axes, so that it can follow; it begins at 5.
 const SETUP: &str = "#SET AX [X,1,0][Y,2,1][C,3,3]\n";
@@ -183,15 +183,4 @@ fn actual_positions_are_taken_over_at_rest() {
             assert!(rests.map(jump).fold(0.0, f64::max) <= window, "seed {}", seed() + k);
         }
     }
-}
-
-/// An additional value of the position loop is part of the actual position, but does not become part of the set position.
-#[test]
-fn additional_values_are_not_taken_over() {
-    let machine = machine(&["X.lr_param.add_interface.enable=1"]);
-    let text = "%P\nG01 X10 F6000\n#CHANNEL INIT [ACTPOS]\nG91 X10\nM30\n";
-    let run = run_with_inputs(machine, text, &[(0.05, "X_add_mm", 0.5)]);
-    assert_eq!(run.diagnostics, []);
-    let last = &run.records.last().unwrap().axes[0];
-    assert!((last.set - 20.0).abs() < 0.02 && (last.act - 20.5).abs() < 0.02, "{last:?}");
 }

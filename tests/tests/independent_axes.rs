@@ -1,25 +1,6 @@
 //! Independent axes in runs of programs: timelines independent of the path, joins, errors.
 
-use kontur_kit::near;
-use kontur_tests::{Run, run};
-
-/// The path does not depend on the motion: its setpoints are the same bit for bit, also through rounded corners.
-#[test]
-fn the_path_is_the_same() {
-    let path =
-        "G90 G01 X10 F3000\nG261\n#CONTOUR MODE [DEV PATH_DEV=0.1]\nY10\nX0\nG02 Y0 J-5\nG01 X30\n";
-    let plain = run(&format!("%P\n{path}M30\n"), &[]);
-    let with = run(&format!("%P\nZ[INDP_ASYN G01 FEED=500 POS=-3]\n{path}M30\n"), &[]);
-    let bits = |run: &Run| -> Vec<[u64; 2]> {
-        run.records.iter().map(|r| [r.axes[0].ipo.to_bits(), r.axes[1].ipo.to_bits()]).collect()
-    };
-    let (a, b) = (bits(&plain), bits(&with));
-    assert!(a.len() <= b.len() && a.len() > 500);
-    assert_eq!(a[..], b[..a.len()]);
-    near(with.records.last().unwrap().axes[2].ipo, -3.0, 1e-9);
-    let error = |run: &Run| run.records.iter().map(|r| r.contour_err_mm).fold(0.0, f64::max);
-    near(error(&with), error(&plain), 1e-9);
-}
+use kontur_tests::run;
 
 /// An axis oscillates between -10 and 10 while the path continues; it always ends at the second position, and the path does not wait for
 /// it before OSC OFF.

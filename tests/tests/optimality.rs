@@ -7,6 +7,7 @@
 use kontur_interpreter::job::{Job, Options};
 use kontur_interpreter::record::CycleRecord;
 use kontur_interpreter::source::MemorySources;
+use kontur_kit::second_order_time;
 use kontur_tests::{programs, sample_machine};
 
 type Point = [f64; 3];
@@ -76,8 +77,8 @@ impl Chord {
 /// Minimum time in s without a jerk limit.
 fn bound(points: &[Point], feed_mm_s: f64) -> f64 {
     let chords = Chord::all(points);
-    // squared speed limits at the grid points; between them twice the product of acceleration and step
-    let (mut squares, mut gain, mut steps) = (vec![0.0], Vec::new(), Vec::new());
+    // squared speed limits at the grid points; acceleration and step between them
+    let (mut squares, mut acc, mut steps) = (vec![0.0], Vec::new(), Vec::new());
     let mut ends = Vec::new();
     for (k, chord) in chords.iter().enumerate() {
         let v = feed_mm_s.min(chord.along(AXIS_MM_S));
@@ -85,7 +86,7 @@ fn bound(points: &[Point], feed_mm_s: f64) -> f64 {
         let step = chord.length_mm / cells;
         for _ in 0..cells as usize {
             squares.push(v * v);
-            gain.push(2.0 * chord.along(AXIS_MM_S2) * step);
+            acc.push(chord.along(AXIS_MM_S2));
             steps.push(step);
         }
         // at a kink the axis velocities jump, with an acceleration that lasts one cycle
@@ -112,14 +113,7 @@ fn bound(points: &[Point], feed_mm_s: f64) -> f64 {
             }
         }
     }
-    for k in (0..steps.len()).rev() {
-        squares[k] = squares[k].min(squares[k + 1] + gain[k]);
-    }
-    for k in 0..steps.len() {
-        squares[k + 1] = squares[k + 1].min(squares[k] + gain[k]);
-    }
-    let time = |k: usize| 2.0 * steps[k] / (squares[k].sqrt() + squares[k + 1].sqrt());
-    (0..steps.len()).map(time).sum()
+    second_order_time(&mut squares, &acc, &steps)
 }
 
 /// Time in s from the first to the last motion of the path, on the machine `xyz`.

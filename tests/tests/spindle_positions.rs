@@ -1,49 +1,7 @@
-//! M19: the angle that is held, the direction, the speed; changes of the speed: ramps, G130.
+//! Spindles: changes of the speed with their ramps, limits of tools that permit everything.
 
-use kontur_kit::Random;
-use kontur_tests::{Run, run};
-
-/// Set angle of the spindle at the end of a line of the program, counted over the revolutions, in deg.
-fn angle(run: &Run, line: u32) -> f64 {
-    run.of_line(line).next_back().unwrap().axes[3].set
-}
-
-fn turns(deg: f64) -> f64 {
-    deg.rem_euclid(360.0)
-}
-
-/// The program of the page (spindle-specific positioning, 208198923), with a pause after each block so that the block can end.
-#[test]
-fn the_angle_is_held_and_the_direction_is_the_commanded_one() {
-    let run = run(
-        "%P\nS[REV100 POS45 M19 M3]\nG04 1\nS[M03 REV1000]\nG04 1\nS[M19 M4 REV150]\nG04 2\nS[M05]\nG04 0.5\n\
-         S[M19]\nG04 0.5\nS[REV200 M19 POS90]\nG04 1\nS[M03 REV1000]\nG04 1\nS[M05]\nG04 1\nM30\n",
-        &[],
-    );
-    assert_eq!(run.diagnostics, []);
-    assert!((angle(&run, 3) - 45.0).abs() < 1e-9, "{}", angle(&run, 3));
-    assert!(run.spindle_rpm(3).iter().all(|v| *v >= 0.0));
-    // counter-clockwise after M3: it stops first, and arrives from above
-    assert!((turns(angle(&run, 7)) - 45.0).abs() < 1e-6, "{}", angle(&run, 7));
-    let least = run.spindle_rpm(7).into_iter().fold(0.0, f64::min);
-    assert!((least + 150.0).abs() < 1e-6, "{least}");
-    // it is already where M19 would turn it
-    assert!((angle(&run, 11) - angle(&run, 9)).abs() < 1e-9);
-    assert!((angle(&run, 13) - angle(&run, 11) - 45.0).abs() < 1e-6);
-    let most = run.spindle_rpm(13).into_iter().fold(0.0, f64::max);
-    // 45 deg are too short for the 200 rev/min, and for the acceleration: two halves of 2 sqrt(v / j)
-    let jerk = 60_000.0_f64 / 0.03;
-    let peak = libm::pow(45.0 / 2.0 * jerk.sqrt(), 2.0 / 3.0) / 6.0;
-    assert!(most <= peak + 1e-6 && most > peak - 0.5, "{most}, not {peak}");
-}
-
-/// From rotation in its direction.
-#[test]
-fn a_turning_spindle_is_positioned_in_its_direction() {
-    let run = run("%P\nM4 S500\nG04 1\nM19 S.POS10\nG04 2\nM30\n", &[]);
-    assert!((turns(angle(&run, 5)) - 10.0).abs() < 1e-6);
-    assert!(run.spindle_rpm(5).iter().all(|v| *v <= 1e-9));
-}
+use kontur_kit::{Random, largest};
+use kontur_tests::run;
 
 /// Ramp times in us (up, down, of speeding up and of braking), acceleration and deceleration 60000 deg/s2.
 fn ramps([up, on, down, off]: [u32; 4]) -> String {
@@ -55,17 +13,13 @@ fn ramps([up, on, down, off]: [u32; 4]) -> String {
 
 /// Time in s and distance in deg while the spindle changes its speed in some lines, and the largest acceleration and jerk.
 fn change(text: &str, us: [u32; 4], line: u32) -> [f64; 4] {
-    let run = run(&format!("%P\n{text}\nM30\n"), &ramps(us));
+    let mut run = run(&format!("%P\n{text}\nM30\n"), &ramps(us));
     assert_eq!(run.diagnostics, []);
-    let t = run.cycle_s;
-    let set: Vec<f64> = run.of_line(line).map(|r| r.axes[3].set).collect();
-    let v: Vec<f64> = set.windows(2).map(|w| (w[1] - w[0]) / t).collect();
-    let a: Vec<f64> = v.windows(2).map(|w| (w[1] - w[0]) / t).collect();
-    let peak = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    let jerk: Vec<f64> = a.windows(2).map(|w| (w[1] - w[0]) / t).collect();
+    run.records.retain(|r| r.line == line);
+    let [set, v, a, jerk] = run.derivatives(3);
     let last = v[v.len() - 1];
     let changing = v.iter().take_while(|v| (*v - last).abs() > 1e-6).count();
-    [changing as f64 * t, set[changing] - set[0], peak(&a), peak(&jerk)]
+    [changing as f64 * run.cycle_s, set[changing] - set[0], largest(&a), largest(&jerk)]
 }
 
 /// The ramp time is added to v / a (P-AXIS-00195 to 00198): the mean of both ramps where they differ. With equal ramps the mean speed is
@@ -111,14 +65,9 @@ fn changes_of_speed_in_a_row_keep_the_jerk() {
     ] {
         let run = run(&format!("%P\n{text}\nM30\n"), &ramps([50_000; 4]));
         assert_eq!(run.diagnostics, [], "{text}");
-        let t = run.cycle_s;
-        let set: Vec<f64> = run.records.iter().map(|r| r.axes[3].set).collect();
-        let differences = |x: &[f64]| x.windows(2).map(|w| (w[1] - w[0]) / t).collect::<Vec<f64>>();
-        let v = differences(&set);
-        let a = differences(&v);
-        let worst = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        assert!(worst(&a) <= 60_000.0 * (1.0 + 1e-6), "{text}: {}", worst(&a));
-        assert!(worst(&differences(&a)) <= jerk_max * (1.0 + 1e-6), "{text}");
+        let [_, v, a, jerk] = run.derivatives(3);
+        assert!(largest(&a) <= 60_000.0 * (1.0 + 1e-6), "{text}: {}", largest(&a));
+        assert!(largest(&jerk) <= jerk_max * (1.0 + 1e-6), "{text}");
         let last = run.records.iter().rposition(|r| r.line == line).unwrap();
         assert!((v[last - 1] - end).abs() < 1e-6, "{text}: {}", v[last - 1]);
     }

@@ -1,5 +1,6 @@
 //! Threads and turning: the spindle and the path in every cycle.
 
+use kontur_kit::largest;
 use kontur_tests::{Run, machine, run, run_with_inputs};
 use std::f64::consts::TAU;
 
@@ -52,16 +53,13 @@ fn tapping_as_fast_as_the_spindle_can() {
     let settings = "S.getriebe[0]: dynamik.vb_max=3000000, vb_eilgang=3000000, slope_profil.a_beschl=2000, \
                     slope_profil.a_brems=2000";
     let run = run("%P\nG63 Z-40 F3000 S2000\nG01 Z-41 F100\nM30\n", settings);
-    let ids: Vec<_> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
-    assert_eq!(ids, ["K-0131"]);
+    assert_eq!(run.said(), ["K-0131"]);
     let tapped = together(&run, 2..=2);
     for (z, deg) in &tapped {
         assert!((deg + z / 1.5 * 360.0).abs() < 1e-6, "{z} {deg}");
     }
-    let speeds: Vec<f64> = rpm(&run).iter().map(|(_, _, v)| v * 6.0).collect();
-    let most = speeds.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
-    assert!(most <= 3000.0 + 1e-6, "{most} deg/s");
-    let acc = speeds.windows(2).map(|w| ((w[1] - w[0]) / run.cycle_s).abs()).fold(0.0, f64::max);
+    let [_, speed, acc, _] = run.derivatives(SPINDLE).map(|x| largest(&x));
+    assert!(speed <= 3000.0 + 1e-6, "{speed} deg/s");
     assert!(acc > 100.0 && acc <= 2000.0 * (1.0 + 1e-6), "{acc} deg/s2");
 }
 
@@ -164,8 +162,7 @@ fn passes_lie_in_each_other_behind_any_corner() {
              G01 X10\nG33 Z-50\nG00 Z10\nZ9\nG04 0.0731\nG33 Z-50\nG01 X0 Z9\nZ9.1\nZ9\nG33 Z-50\nM5\nM30\n"
         );
         let run = run(&text, &[]);
-        let ids: Vec<_> = run.diagnostics.iter().map(|d| d.id.to_string()).collect();
-        assert_eq!(ids, ["K-0112"], "{text}");
+        assert_eq!(run.said(), ["K-0112"], "{text}");
         let passes = [5, 7, 10, 14, 18].map(|line| thread(&run, line, 1.5, 1.0));
         for pass in passes {
             assert!(apart(pass, passes[0], 1.5) < 1e-6, "{freq} Hz: {passes:?}");

@@ -2,7 +2,7 @@
 
 use kontur::Exit;
 use kontur_kit::{Random, count, seed};
-use kontur_tests::command::Folder;
+use kontur_tests::command::{Folder, set};
 use kontur_tests::{machine, run_with_inputs};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -14,10 +14,11 @@ struct Run {
 }
 
 impl Run {
-    fn new(program: &str, more: &[&str]) -> Self {
+    /// With settings.
+    fn new(program: &str, settings: &str) -> Self {
         let folder = Folder::new(&[("part.nc", program)]);
         let times = folder.path("times.csv");
-        let summary = folder.summary(&[&[&*format!("--times={times}")], more].concat());
+        let summary = folder.summary(&[vec![format!("--times={times}")], set(settings)].concat());
         let mut table = csv::Reader::from_path(times).unwrap();
         let rows = table.deserialize().map(|row| row.unwrap());
         let lines = rows.map(|row: BTreeMap<String, String>| (row["line"].parse().unwrap(), row));
@@ -49,19 +50,9 @@ impl Run {
 /// of 50 ms: 50 ms build-up, 50 ms constant, 50 ms reduction; two such ramps cover 15 mm, the feed covers the other 85 mm in 0.85 s.
 #[test]
 fn a_straight_line_in_closed_form() {
-    let dynamics = "getriebe[0].slope_profil";
-    let set = |key: &str, value: &str| format!("X.{dynamics}.{key}={value}");
-    let settings = [
-        set("a_beschl", "1000"),
-        set("a_brems", "1000"),
-        set("tr_beschl_zu", "50000"),
-        set("tr_beschl_ab", "50000"),
-        set("tr_brems_zu", "50000"),
-        set("tr_brems_ab", "50000"),
-    ];
-    let mut words: Vec<&str> = settings.iter().flat_map(|s| ["--set", s.as_str()]).collect();
-    words.extend(["--cycle-us", "1000"]);
-    let run = Run::new("#SLOPE [TYPE=TRAPEZ]\nG01 X100 F6000\nG04 0.25\nM30\n", &words);
+    let slope = "X.getriebe[0].slope_profil: a_beschl=1000, a_brems=1000, tr_beschl_zu=50000, tr_beschl_ab=50000, \
+                 tr_brems_zu=50000, tr_brems_ab=50000; Kontur.cycle_time_us=1000";
+    let run = Run::new("#SLOPE [TYPE=TRAPEZ]\nG01 X100 F6000\nG04 0.25\nM30\n", slope);
     let near = |is: f64, want: f64| {
         assert!((is - want).abs() < 2.1e-3, "{is}, not {want}: {}", run.summary)
     };
@@ -76,8 +67,7 @@ fn a_straight_line_in_closed_form() {
 /// The axis that is at its limit is named: Y, with a tenth of the speed of X.
 #[test]
 fn the_axis_at_its_limit_is_named() {
-    let words = ["--set", "Y.getriebe[0].dynamik.vb_max=10000"];
-    let run = Run::new("G01 X50 Y50 F60000\nM30\n", &words);
+    let run = Run::new("G01 X50 Y50 F60000\nM30\n", "Y.getriebe[0].dynamik.vb_max=10000");
     assert_eq!(run.axis_of("axis_v"), ["Y"], "{}", run.summary);
     // 10 mm/s over 50 mm
     assert!(run.reason("axis_v") > 4.5, "{}", run.summary);
@@ -87,14 +77,14 @@ fn the_axis_at_its_limit_is_named() {
 /// of its 3500. A spindle that only runs up meanwhile is not part of the path.
 #[test]
 fn the_spindle_that_limits_a_thread_is_named() {
-    let run = Run::new("G331 Z-20 K1.5 S6000\nG332 Z0\nM30\n", &[]);
+    let run = Run::new("G331 Z-20 K1.5 S6000\nG332 Z0\nM30\n", "");
     assert_eq!(run.axis_of("axis_a"), ["S"], "{}", run.summary);
     let proposals = run.summary["times"]["proposals"].as_array().unwrap();
     let of_spindle = proposals.iter().find(|p| p["what"] == "accelerations +10 % of S").unwrap();
     // two moves of 20 mm from rest to rest: 2 sqrt(20 / 250) each, reduced by the root of 1.1
     let want = 4.0 * (20.0_f64 / 250.0).sqrt() * (1.0 - 1.0 / 1.1_f64.sqrt());
     assert!((of_spindle["saves_s"].as_f64().unwrap() - want).abs() < 0.01, "{of_spindle}");
-    let milled = Run::new("#SLOPE [TYPE=STEP]\nS6000 M3\nG01 X100 F6000\nM30\n", &[]);
+    let milled = Run::new("#SLOPE [TYPE=STEP]\nS6000 M3\nG01 X100 F6000\nM30\n", "");
     let reasons = milled.summary["times"]["reasons"].as_array().unwrap();
     assert!(reasons.iter().any(|r| r["axis"] == "X"), "{}", milled.summary);
     assert!(reasons.iter().all(|r| r["axis"] != "S"), "{}", milled.summary);
@@ -106,7 +96,7 @@ fn the_spindle_that_limits_a_thread_is_named() {
 fn accelerations_are_proposed_where_ramps_take_the_time() {
     let moves = 40;
     let back_and_forth = "G01 X0.1 F6000\nX0\n".repeat(moves / 2);
-    let run = Run::new(&format!("#SLOPE [TYPE=TRAPEZ]\n{back_and_forth}M30\n"), &[]);
+    let run = Run::new(&format!("#SLOPE [TYPE=TRAPEZ]\n{back_and_forth}M30\n"), "");
     let proposals = run.summary["times"]["proposals"].as_array().unwrap();
     for (what, root) in
         [("accelerations +10 % of all axes", 1.1), ("ramp times -10 % of all axes", 1.0 / 0.9)]
@@ -139,7 +129,7 @@ fn random_programs_add_up() {
             };
         }
         program += "M30\n";
-        let run = Run::new(&program, &[]);
+        let run = Run::new(&program, "");
         let lines: f64 = run.lines.keys().map(|l| run.seconds(*l, "total")).sum();
         assert!((lines - run.duration()).abs() < 1e-9, "{program}");
         for (line, row) in &run.lines {
@@ -172,16 +162,15 @@ fn the_most_expensive_lines_are_quoted() {
 #[test]
 fn proposals_save_what_they_say() {
     // 10 mm/s over 50 mm, and with 10 % more
-    let limit = ["--set", "Y.getriebe[0].dynamik.vb_max=10000"];
+    let limit = "Y.getriebe[0].dynamik.vb_max=10000";
     let program = "#SLOPE [TYPE=TRAPEZ]\nG01 Y50 F60000\nX20\nX0 Y45\nM30\n";
-    let run = Run::new(program, &limit);
+    let run = Run::new(program, limit);
     let proposals = run.summary["times"]["proposals"].as_array().unwrap();
     assert!(proposals.len() > 1, "{proposals:?}");
     for proposal in proposals {
         let settings = proposal["settings"].as_array().unwrap();
-        let settings: Vec<&str> =
-            settings.iter().flat_map(|s| ["--set", s.as_str().unwrap()]).collect();
-        let with = Run::new(program, &[&limit[..], &settings].concat());
+        let settings: Vec<&str> = settings.iter().map(|s| s.as_str().unwrap()).collect();
+        let with = Run::new(program, &format!("{limit}; {}", settings.join("; ")));
         let saves = proposal["saves_s"].as_f64().unwrap();
         assert!((run.duration() - with.duration() - saves).abs() < 1e-9, "{proposal}");
     }

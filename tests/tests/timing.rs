@@ -12,10 +12,11 @@
 //! X8..8.2              between these positions
 //! S2=45                an axis or spindle whose name may end with a digit
 //! most 3 X45           the same in that cycle of this line in which it is largest, whatever its sign; 0 is the whole run
+//! all 3 X40..45        the same in every cycle of this line
 //! add X0.5             another quantity of the axes: set, act, load, lag, add, reference, err, dev, vel, acc, jerk, ff, cmd, vadd; rpm, the
 //!                      speed of a spindle in rev/min; late, the cycles by which `set` follows `ipo` at constant speed; percent, the
 //!                      lag in per cent of that without feedforward, speed / Kv with Kv 50/s; pitch, the way during a revolution of the spindle of the
-//!                      built-in machine; `ipo` leads back
+//!                      built-in machine; turn, the set angle within a revolution; `ipo` leads back
 //! arrives X100 1.6     the first time at which an axis has come to a position
 //! steps X0.1           what an axis goes at most in a cycle
 //! held 0.4             how long the path is held
@@ -23,15 +24,17 @@
 //! within 0.6           the run does not last longer
 //! aborted              the run ends with an error
 //! 70082@3@X            a message, its line in the row, its axis
+//! as X Y: PROGRAM      these axes move exactly as in another program, without the surroundings of the paragraph, as long as both run;
+//!                      without axes all do, as long as it; the last words of a row
 //! "text"               all texts of `#MSG`
 //! ```
 
 use kontur_interpreter::diag::{Condition, Diagnostic};
-use kontur_interpreter::record::Rest;
-use kontur_kit::rows::{Row, fits, rows};
-use kontur_tests::suite::{files, folder, name};
+use kontur_interpreter::record::{CycleRecord, Rest};
+use kontur_kit::pieces;
+use kontur_kit::rows::{Row, fits, lines, rows, wrong};
+use kontur_tests::suite::folder;
 use kontur_tests::{Run, machine, programs, run_with_inputs, sample_machine, suite_machine};
-use std::fmt::Write as _;
 use std::ops::RangeInclusive;
 
 /// mm, deg or s.
@@ -65,6 +68,7 @@ fn quantity(run: &Run, name: &str, k: usize, axis: usize) -> f64 {
         "ff" => of(k).ff,
         "cmd" => of(k).cmd,
         "vadd" => of(k).vadd,
+        "turn" => of(k).set.rem_euclid(360.0),
         _ if k == 0 => 0.0,
         "late" => (of(k).ipo - of(k).set) / (of(k).ipo - of(k - 1).ipo),
         "percent" => {
@@ -98,30 +102,60 @@ fn arrival_s(run: &Run, axis: usize, target: f64) -> f64 {
         .map_or(f64::INFINITY, |k| k as f64 * run.cycle_s)
 }
 
+/// Where a run differs from that of another program: `X Y: PROGRAM`, or `: PROGRAM` for all that its cycles show.
+fn other_motion(
+    run: &Run,
+    other: &str,
+    axes: &[String],
+    drive: impl FnOnce(&str) -> Run,
+) -> Option<String> {
+    let (names, program) = other.split_once(':')?;
+    let other = drive(&format!("%P\n{}M30\n", lines(program.trim())));
+    let named: Vec<usize> =
+        (0..axes.len()).filter(|i| names.split(' ').any(|name| name == axes[*i])).collect();
+    let moved = |r: &CycleRecord| -> String {
+        let positions = |i: &usize| format!("{} {} ", r.axes[*i].ipo, r.axes[*i].set);
+        match &named[..] {
+            [] => format!("{:?} {:?} {}", r.path, r.axes, r.contour_err_mm),
+            _ => named.iter().map(positions).collect(),
+        }
+    };
+    if named.is_empty() && run.records.len() != other.records.len() {
+        return Some(format!("{} cycles, the other {}", run.records.len(), other.records.len()));
+    }
+    let k = run.records.iter().zip(&other.records).position(|(a, b)| moved(a) != moved(b))?;
+    Some(format!("cycle {k}: {}, the other {}", moved(&run.records[k]), moved(&other.records[k])))
+}
+
 /// What a row states and the run does not fulfil.
 fn faults(row: &Row) -> Vec<String> {
     let inputs: Vec<_> = row.inputs.iter().map(|(t, name, x)| (*t, name.as_str(), *x)).collect();
-    let machine = match row.machine.as_deref() {
+    let built = match row.machine.as_deref() {
         None => machine(&row.settings),
         Some(name) if programs().join("machines").join(name).is_dir() => {
             sample_machine(name, &row.settings)
         }
         Some(name) => suite_machine(name, &row.settings),
     };
-    let axes: Vec<String> = machine.0.all_axes().map(|axis| axis.name().to_owned()).collect();
-    let run = run_with_inputs(machine, &format!("%P\n{}", row.program), &inputs);
+    let axes: Vec<String> = built.0.all_axes().map(|axis| axis.name().to_owned()).collect();
+    let run = run_with_inputs(built.clone(), &format!("%P\n{}", row.program), &inputs);
     let (mut wrong, mut ids, mut aborted) = (Vec::new(), Vec::new(), false);
     let mut found = Vec::new();
-    let (mut at, mut what) = (vec![run.records.len().saturating_sub(1)], "ipo");
-    let (words, texts) =
-        row.expected.split_at(row.expected.find('"').unwrap_or(row.expected.len()));
+    let (mut at, mut what, mut every) = (vec![run.records.len().saturating_sub(1)], "ipo", false);
+    let (words, texts) = row.words_and_texts();
+    let (words, other) =
+        words.split_once(" as").filter(|(_, o)| o.contains(':')).unwrap_or((words, ""));
+    wrong.extend(other_motion(&run, other, &axes, |program| {
+        run_with_inputs(built.clone(), program, &inputs)
+    }));
     let mut words = words.split_whitespace();
     while let Some(word) = words.next() {
         let mut number = || -> f64 { words.next().and_then(|w| w.parse().ok()).expect(&row.text) };
         match word {
             "ok" => {}
-            "at" => at = vec![(number() / run.cycle_s).round() as usize],
-            "line" | "first" | "middle" | "rest" | "most" => {
+            "at" => (at, every) = (vec![(number() / run.cycle_s).round() as usize], false),
+            "line" | "first" | "middle" | "rest" | "most" | "all" => {
+                every = word == "all";
                 // %P is before the first line of a row
                 let line = number() as u32 + 1;
                 at = (0..run.records.len())
@@ -143,10 +177,10 @@ fn faults(row: &Row) -> Vec<String> {
                     _ => {}
                 }
             }
-            "end" => at = vec![run.records.len().saturating_sub(1)],
+            "end" => (at, every) = (vec![run.records.len().saturating_sub(1)], false),
             "ipo" | "set" | "act" | "load" | "lag" | "add" | "reference" | "err" | "dev"
             | "vel" | "acc" | "jerk" | "ff" | "cmd" | "vadd" | "late" | "percent" | "pitch"
-            | "rpm" => what = word,
+            | "turn" | "rpm" => what = word,
             "held" => found.push((word, run.rested(Rest::Held) as f64 * run.cycle_s, number())),
             "within" => {
                 let limit_s = number();
@@ -175,8 +209,14 @@ fn faults(row: &Row) -> Vec<String> {
                 Some((i, want)) if at.iter().all(|k| *k < run.records.len()) => {
                     let values = at.iter().map(|k| quantity(&run, what, *k, i));
                     let larger = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
-                    let is = values.fold(0.0, larger);
-                    let is = if at.len() > 1 { is.abs() } else { is };
+                    let off = |x: &f64| (want.start() - x).max(x - want.end());
+                    let is = if every {
+                        values.max_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or_default()
+                    } else if at.len() > 1 {
+                        values.fold(0.0, larger).abs()
+                    } else {
+                        values.fold(0.0, larger)
+                    };
                     let near = tolerance(what);
                     if is < want.start() - near || is > want.end() + near {
                         wrong.push(format!("{what} {word}: {is}"));
@@ -209,18 +249,8 @@ fn faults(row: &Row) -> Vec<String> {
 
 #[test]
 fn axes_are_where_the_rows_say() {
-    let mut wrong = String::new();
-    for file in files(&folder("timing"), "txt") {
-        let rows = rows(&std::fs::read_to_string(&file).unwrap());
-        assert!(!rows.is_empty(), "{}", name(&file));
-        for row in rows {
-            let faults = faults(&row);
-            if !faults.is_empty() {
-                let _ = writeln!(wrong, "{}: {}\n    {}", name(&file), row.text, faults.join("; "));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    let wrong = wrong(folder("timing"), faults).unwrap();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// A wrong row is found, whatever is wrong in it. 10 mm at 100 mm/s with 1000 mm/s2 take 0.2 s.
@@ -235,31 +265,15 @@ fn wrong_rows_are_found() {
     };
     assert!(of("ok at 0.1 X5 Y0 arrives X10 0.2 end X10 held 0"));
     assert!(of(
-        "at 0.1 X4.9..5.1 Y=0 set X5 lag X0.1..9 end act X9.98..10.02 rpm S=0 middle 2 ipo X1..9"
+        "all 2 X0..10 Y0 at 0.1 X4.9..5.1 Y=0 set X5 lag X0.1..9 end act X9.98..10.02 rpm S=0 middle 2 ipo X1..9"
     ));
-    for wrong in [
-        "at 0.1 X5.1",
-        "at 0.1 X5.01..5.1",
-        "X=9",
-        "at 0.1 act X5",
-        "line 1 X9",
-        "middle 2 X10",
-        "rpm S=1",
-        "most 0 X9",
-        "vel most 1 X9",
-        "percent middle 2 X10",
-        "pitch middle 2 X1",
-        "first 2 X1",
-        "rest 2 X10",
-        "K-0009@3",
-        "\"text\"",
-        "arrives X10 0.201",
-        "arrives X11 0.2",
-        "end X9",
-        "held 0.1",
-        "K-0009",
-        "ok aborted",
-    ] {
+    assert!(of("ok as: #SLOPE [TYPE=STEP] | F6000 G01 X10") && of("ok as Y: G04 1"));
+    for wrong in pieces(
+        "ok as: #SLOPE [TYPE=STEP] | F5900 G01 X10 ¦ ok as X Y: G04 1 ¦ all 2 X0..9.9 ¦ all 2 X0.1..10 ¦ turn X9
+at 0.1 X5.1 ¦ at 0.1 X5.01..5.1 ¦ X=9 ¦ at 0.1 act X5 ¦ line 1 X9 ¦ middle 2 X10 ¦ rpm S=1 ¦ most 0 X9 ¦ vel most 1 X9
+percent middle 2 X10 ¦ pitch middle 2 X1 ¦ first 2 X1 ¦ rest 2 X10 ¦ K-0009@3 ¦ \"text\" ¦ arrives X10 0.201 ¦ arrives X11 0.2
+end X9 ¦ held 0.1 ¦ K-0009 ¦ ok aborted",
+    ) {
         assert!(!of(wrong), "{wrong}");
     }
 }

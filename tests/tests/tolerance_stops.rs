@@ -40,16 +40,6 @@ fn stops_shorter_than_the_kernel() {
     }
 }
 
-/// Where the stop lies on a straight line nothing has to wait.
-#[test]
-fn a_stop_on_a_line_does_not_wait() {
-    let program = |key: &str| {
-        format!("#VIB GUARD ON [MODE=2 FREQ=20{key}]\nG01 X10 F3000\nG04 0.005\nX20\nM30\n")
-    };
-    let (free, bound) = (run(&program(""), &[]), run(&program(" AX_DEV=0.001"), &[]));
-    assert_eq!(free.set(2), bound.set(2));
-}
-
 /// A change of override or a feedhold while the path speeds up on a curve: the speed that the tolerance allows there is also kept after
 /// it.
 #[test]

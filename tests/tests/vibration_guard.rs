@@ -26,7 +26,7 @@ fn kernel_delay(mode: u8, freq_hz: f64, damping: f64) -> f64 {
 }
 
 fn near(is: f64, want: f64) {
-    assert!((is - want).abs() < 1e-6, "{is} is not {want}");
+    kontur_kit::near(is, want, 1e-6);
 }
 
 /// From the list: from program start, axis by axis; unequal delays are reported. Conformance: V003, V025.
@@ -86,73 +86,6 @@ fn the_error_grows_with_the_cycle() {
     };
     let (one, two, four) = (error(1000), error(2000), error(4000));
     assert!(one < two && two < four, "{one} {two} {four}");
-}
-
-/// A program that keeps the tolerance anyway is unchanged; 0 means no monitoring. Conformance: V026, V048.
-#[test]
-fn the_tolerance_acts_only_where_it_must() {
-    let with = |key: &str| {
-        let command = format!("#VIB GUARD ON [MODE=2 FREQ=40{key}]");
-        on(&[&command, "G01 X10 F600", "X20 Y0.2", "X30 Y0.6"], &[])
-    };
-    let plain = with("");
-    let deviation = largest(&plain, |r| r.axes[1].dev);
-    assert!(deviation > 0.0 && deviation < 0.05, "{deviation}");
-    // without a tolerance, `dev` is measured more finely
-    let motion = |run: &Run| -> Vec<_> {
-        run.records
-            .iter()
-            .map(|r| (r.path, r.axes.iter().map(|a| a.set).collect::<Vec<_>>()))
-            .collect()
-    };
-    assert_eq!(motion(&with(" AX_DEV=0.05")), motion(&plain));
-    let square =
-        |key: &str| on(&[&format!("#VIB GUARD ON [MODE=2 FREQ=40{key}]"), SQUARE], &[]).records;
-    assert_eq!(square(" AX_DEV=0"), square(""));
-    assert_ne!(square(" AX_DEV=0.01"), square(""));
-    let run = on(&["#VIB GUARD ON [AX_DEV=-0.01]", SQUARE], &[]);
-    assert_eq!(run.said(), ["K-0034"]);
-    assert!(run.totals.aborted);
-}
-
-/// The list prepares, the program switches; the words of the program take precedence. Conformance: V028, V029.
-#[test]
-fn lists_and_program() {
-    let motion = "G01 X100 F6000";
-    let run = on(&["#VIB GUARD ON", motion], "X,Y,Z.vib_guard: mode=3, freq=20");
-    near(run.delay_cycles(4), kernel_delay(3, 20.0, 0.1));
-    let active = "X,Y,Z.vib_guard: active=1, mode=1, freq=30";
-    let run =
-        on(&[motion, "#VIB GUARD ON [MODE=4 FREQ=50]", "X200", "#VIB GUARD OFF", "X300"], active);
-    near(run.delay_cycles(3), kernel_delay(1, 30.0, 0.1));
-    near(run.delay_cycles(5), kernel_delay(4, 50.0, 0.1));
-    near(run.delay_cycles(7), 0.0);
-}
-
-/// Axis exchange switches the guard of the program off; that of the list stays on. Conformance: V039, V040, V041.
-#[test]
-fn axis_exchange() {
-    let motion = "G01 X100 F6000";
-    let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", motion], &[]);
-    assert!(run.is_unshaped(0) && !run.totals.aborted);
-    assert!(
-        run.diagnostics.iter().any(|d| d.text.contains("Vibration Guard")),
-        "{:?}",
-        run.diagnostics
-    );
-    let run = on(&["#VIB GUARD ON", "#PUT AX [Z]", "#VIB GUARD ON", motion], &[]);
-    near(run.delay_cycles(6), kernel_delay(1, 30.0, 0.1));
-    let run = on(&["#PUT AX [Z]", motion], "X,Y,Z.vib_guard.active=1");
-    near(run.delay_cycles(4), kernel_delay(1, 30.0, 0.1));
-}
-
-/// Keys in any order, and defaults; ranges are rows of `shaping.txt`. Conformance: V043, V045, V046, V047, V052.
-#[test]
-fn keys_of_the_command() {
-    let records = |command: &str| on(&[command, SQUARE], &[]).records;
-    assert_eq!(records("#VIB GUARD ON [FREQ=6 MODE=2]"), records("#VIB GUARD ON [MODE=2 FREQ=6]"));
-    let motion = "G01 X100 F6000";
-    near(on(&["#VIB GUARD ON", motion], &[]).delay_cycles(4), kernel_delay(1, 30.0, 0.1));
 }
 
 /// Speed at a corner of 90 degrees: a T with the weight of 10 %, times ACC_FACT. Conformance: V050, V051.

@@ -1,6 +1,7 @@
 //! A 90 degree corner at constant speed through two equal filters: how far the path leaves the contour.
 
 use kontur_filters::stage::Stage;
+use kontur_kit::from_polyline;
 
 /// Largest distance from the contour and smallest distance from the corner, both of the path drawn as a polyline
 /// (between two samples the path may be further off than at both of them), in the unit of the speed times cycles.
@@ -65,20 +66,13 @@ pub(crate) fn forward_backward_gap<S: Stage + Clone>(
 ) -> f64 {
     let forward = path(stage, per_cycle, cycles);
     // Mirrored at the diagonal the reversed program is the program: x and -y change places.
-    let backward: Vec<_> = forward.iter().map(|&(x, y)| (-y, -x)).collect();
-    let to_path = |point: (f64, f64)| {
-        backward.windows(2).map(|pair| to_segment(point, pair[0], pair[1])).fold(f64::MAX, f64::min)
+    let backward: Vec<_> = forward.iter().map(|&(x, y)| [-y, -x]).collect();
+    let to_path = |(x, y): (f64, f64)| {
+        let off = from_polyline(&[x, y], &backward);
+        libm::hypot(off[0], off[1])
     };
     // Away from the ends, where the other path may not reach.
     let near =
         forward.iter().filter(|(x, y)| x.abs().max(y.abs()) < 0.4 * per_cycle * f64::from(cycles));
     near.map(|&point| to_path(point)).fold(0.0, f64::max)
-}
-
-fn to_segment(point: (f64, f64), from: (f64, f64), to: (f64, f64)) -> f64 {
-    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-    let length2 = dx * dx + dy * dy;
-    let along = (point.0 - from.0) * dx + (point.1 - from.1) * dy;
-    let t = if length2 > 0.0 { (along / length2).clamp(0.0, 1.0) } else { 0.0 };
-    libm::hypot(from.0 + t * dx - point.0, from.1 + t * dy - point.1)
 }

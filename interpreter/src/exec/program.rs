@@ -15,6 +15,7 @@ pub(super) mod info;
 mod jumps;
 mod level;
 mod levels;
+pub(super) mod parsed;
 pub(super) mod places;
 mod reached;
 mod reads;

@@ -14,6 +14,13 @@ fn job(text: &str, settings: &[&str], options: Options) -> Job {
     Job::new(machine, sources, "main.nc").with_warnings(warnings).with_options(options)
 }
 
+/// A run under real-time inputs, if there are any.
+fn start(text: &str, settings: &[&str], inputs: Option<&'static str>) -> Run {
+    let job = job(text, settings, Options::default());
+    let files: Vec<_> = inputs.iter().map(|text| ("a.csv", || Ok(text.as_bytes()))).collect();
+    job.start().unwrap().with_inputs(inputs::open(&files, job.machine()).unwrap())
+}
+
 fn records(run: &mut Run) -> Vec<CycleRecord> {
     let mut records = Vec::new();
     let Ok(()) = run.to_end(&mut |r: &CycleRecord| records.push(r.clone()));
@@ -118,12 +125,7 @@ fn other_threads_change_nothing() {
         (format!("G01 F6000\n{many}P1=1/V.A.ACT_POS.Z\n{many}M30\n"), &[], None),
     ];
     for (text, settings, inputs) in &programs {
-        let start = || {
-            let job = job(text, settings, Options::default());
-            let files: Vec<_> =
-                inputs.iter().map(|text: &&str| ("a.csv", || Ok(text.as_bytes()))).collect();
-            job.start().unwrap().with_inputs(inputs::open(&files, job.machine()).unwrap())
-        };
+        let start = || start(text, settings, *inputs);
         let outcome = |mut run: Run, how: &dyn Fn(&mut Run, &mut Vec<CycleRecord>)| {
             let mut records = Vec::new();
             how(&mut run, &mut records);
@@ -247,15 +249,7 @@ fn cycles_that_nobody_reads_are_driven_alike() {
     ];
     for (text, settings, inputs) in &programs {
         let drive = |reads: bool, stretch: u64| {
-            let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
-            let lists = MachineLists { settings: &settings, ..MachineLists::default() };
-            let Ok((machine, warnings)) = lists.load() else { panic!("{text}") };
-            let sources = MemorySources::new().with("main.nc", text.as_str());
-            let files: Vec<_> =
-                inputs.iter().map(|text: &&str| ("a.csv", || Ok(text.as_bytes()))).collect();
-            let job = Job::new(machine, sources, "main.nc").with_warnings(warnings);
-            let changes = inputs::open(&files, job.machine()).unwrap();
-            let mut run = job.start().unwrap().with_inputs(changes).without_deviation();
+            let mut run = start(text, settings, *inputs).without_deviation();
             let mut sink = Pauses { reads, records: Vec::new(), said: Vec::new() };
             while !run.is_over() {
                 let Ok(()) = run.advance(stretch, &mut sink);

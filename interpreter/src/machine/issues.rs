@@ -83,6 +83,15 @@ const fn guard_condition(error: &VibGuardError) -> Condition {
     }
 }
 
+/// What becomes of a filter.
+const fn outcome(effect: Effect) -> &'static str {
+    match effect {
+        Effect::Note => "the filter runs as configured",
+        Effect::Corrected => "the filter runs with the corrected value",
+        Effect::Off => "the filter is off",
+    }
+}
+
 /// A condition of a filter's settings, with its values; `keys` of the list, `None` for the words of a program.
 pub(crate) fn filter(
     axis: &Axis,
@@ -95,14 +104,9 @@ pub(crate) fn filter(
         condition => condition,
     };
     let effect = issue.effect();
-    let becomes = match effect {
-        Effect::Note => "the filter runs as configured",
-        Effect::Corrected => "the filter runs with the corrected value",
-        Effect::Off => "the filter is off",
-    };
     let what = issue.to_string();
     let about = |place: fn(&FilterParameters) -> Place| {
-        listed_or_programmed(axis, condition, keys.map(place), &what, becomes)
+        listed_or_programmed(axis, condition, keys.map(place), &what, outcome(effect))
     };
     let diagnostic = match *issue {
         FilterIssue::TypeNotPermitted { number } => {
@@ -144,13 +148,19 @@ pub(crate) fn filter(
             about(|k| k.share.place()).value(ValueKind::Wrong, 100.0 * share_ratio, "%")
         }
     };
-    match (keys, effect) {
-        (None, Effect::Note) => diagnostic.severity(Severity::Note),
+    match other_severity(keys.is_some(), effect) {
+        Some(severity) => diagnostic.severity(severity),
+        None => diagnostic,
+    }
+}
+
+/// The severity of a condition in a list or in a program where it is not that of its row.
+const fn other_severity(in_list: bool, effect: Effect) -> Option<Severity> {
+    match (in_list, effect) {
+        (false, Effect::Note) => Some(Severity::Note),
         // in a list, as documented: that part is off, and the run continues
-        (None, Effect::Corrected) | (Some(_), Effect::Off) => {
-            diagnostic.severity(Severity::Warning)
-        }
-        (None, Effect::Off) | (Some(_), _) => diagnostic,
+        (false, Effect::Corrected) | (true, Effect::Off) => Some(Severity::Warning),
+        (false, Effect::Off) | (true, _) => None,
     }
 }
 

@@ -2,6 +2,7 @@
 //! does in a cycle see [`cycle`].
 
 mod cycle;
+mod shown;
 
 pub(super) use cycle::Mark;
 

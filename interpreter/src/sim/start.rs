@@ -15,7 +15,7 @@ use super::totals::{Progress, Totals};
 use super::wear::Wear;
 use crate::diag::Diagnostic;
 use crate::exec::{Options, Structures};
-use crate::machine::Machine;
+use crate::machine::{Axis, Machine};
 use crate::record::{CycleRecord, Motion};
 use crate::source::Sources;
 use kontur_filters::control::axis_control::AxisInputs;
@@ -42,11 +42,7 @@ impl Simulation {
         let n = machine.axes.len();
         let chains = Chains::new(&start, setups, &machine)?;
         let window = machine.channel.look_ahead_blocks as usize;
-        let spindles: Vec<_> = machine
-            .spindles
-            .iter()
-            .map(|a| Spindle::new(&a.dynamics()).within(a.speed_band()))
-            .collect();
+        let spindles = at_rest(&machine.spindles);
         let records = chains.all.iter().map(AxisChain::at_start).collect();
         let mut planner = Planner::new(cycle, window, &start[..n]);
         planner.stop_with(stop);
@@ -118,4 +114,9 @@ pub(crate) fn impossible_axes(machine: &Machine) -> Vec<Diagnostic> {
         chain.err().map(|e| fault::plant(&e, machine, i))
     };
     chains.filter_map(error).collect()
+}
+
+/// The spindles of a machine before their first cycle.
+fn at_rest(spindles: &[Axis]) -> Vec<Spindle> {
+    spindles.iter().map(|a| Spindle::new(&a.dynamics()).within(a.speed_band())).collect()
 }

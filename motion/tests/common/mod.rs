@@ -180,6 +180,16 @@ pub(crate) fn deviation<P: AsRef<[f64]>>(point: &[f64], polyline: &[P]) -> f64 {
     largest(&from_polyline(point, polyline))
 }
 
+/// Numbers separated by blanks.
+pub(crate) fn numbers(text: &str) -> Vec<f64> {
+    text.split_whitespace().map(|n| n.parse().unwrap()).collect()
+}
+
+/// Points separated by semicolons.
+pub(crate) fn points(text: &str) -> Vec<Vec<f64>> {
+    text.split(';').map(numbers).collect()
+}
+
 /// A line of all axes.
 pub(crate) fn line(from: &[f64], to: &[f64]) -> Path {
     let [from, to] = [from, to].map(AxisVec::from_slice);
@@ -222,20 +232,6 @@ pub(crate) fn norm(v: &[f64]) -> f64 {
 /// Distance of two points.
 pub(crate) fn apart(p: &[f64], q: &[f64]) -> f64 {
     p.iter().zip(q).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-}
-
-/// Fastest time in s along a path without a jerk limit, by a backward and a forward pass: `limit` holds the squares of the
-/// speeds allowed at the points of a grid (mm2/s2) and is lowered to those reached, `acc` in mm/s2 and `step` in mm belong
-/// to the intervals between them.
-pub(crate) fn second_order_time(limit: &mut [f64], acc: &[f64], step: &[f64]) -> f64 {
-    let n = acc.len();
-    for k in (0..n).rev() {
-        limit[k] = limit[k].min(limit[k + 1] + 2.0 * acc[k] * step[k]);
-    }
-    for k in 0..n {
-        limit[k + 1] = limit[k + 1].min(limit[k] + 2.0 * acc[k] * step[k]);
-    }
-    (0..n).map(|k| 2.0 * step[k] / (limit[k].sqrt() + limit[k + 1].sqrt())).sum()
 }
 
 /// Points of a contour of lines: corners, gentle bends, or up to `chords` chords of arcs.

@@ -1,8 +1,8 @@
 //! The time on a curve compared with what its limits at every point permit.
 
 use super::contoured_at;
-use crate::common::{Job, curvature, line, machine, second_order_time, tangent};
-use kontur_kit::largest;
+use crate::common::{Job, curvature, line, machine, tangent};
+use kontur_kit::{largest, second_order_time};
 use kontur_motion::block::SlopeKind::{Hsc, Trapez};
 use kontur_motion::block::{Block, ContourMode, ContourSettings, CurveJerk};
 

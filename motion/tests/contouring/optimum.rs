@@ -4,52 +4,26 @@
 //! shares no code with the planner.
 
 use super::*;
-use crate::optimum::{CYCLE_US, machine, numbers};
-use kontur_motion::axis::AxisDynamics;
+use crate::optimum::{CYCLE_US, Row, table};
 use kontur_motion::block::SlopeKind::{self, Hsc};
-
-struct Row {
-    name: String,
-    axes: Vec<AxisDynamics>,
-    feed_mm_s: f64,
-    path_dev_mm: f64,
-    points: Vec<Vec<f64>>,
-    least_s: f64,
-}
-
-fn table() -> Vec<Row> {
-    let mut reader = csv::Reader::from_reader(include_str!("../data/contoured.csv").as_bytes());
-    let rows = reader.records().map(|record| {
-        let record = record.unwrap();
-        Row {
-            name: format!("{} {}", &record[0], &record[1]),
-            axes: machine(&record[1], 1.0),
-            feed_mm_s: record[2].parse().unwrap(),
-            path_dev_mm: record[3].parse().unwrap(),
-            points: record[4].split(';').map(numbers).collect(),
-            least_s: record[5].parse().unwrap(),
-        }
-    });
-    rows.collect()
-}
 
 /// Machine time over the least one; `None` if a corner keeps its kink, which is faster there than its curve.
 fn ratio(row: &Row, kind: SlopeKind) -> Option<f64> {
     let job =
         Job { dynamics: channel(row.axes.clone()), cycle_us: CYCLE_US, ..Job::new(1.0, kind) };
     let paths = row.points.windows(2).map(|ends| line(&ends[0], &ends[1]));
-    let (blocks, _) = contoured_at(row.feed_mm_s, &job, dev(row.path_dev_mm), paths);
+    let (blocks, _) = contoured_at(row.feeds[0], &job, dev(row.path_dev_mm), paths);
     let kinks = blocks.windows(2).any(|w| {
         let [a, b] = [&w[0].path, &w[1].path];
         apart(&tangent(a, a.length()), &tangent(b, 0.0)) > 1e-6
     });
     let cycles = job.run(&row.points[0], blocks.into_iter()).len() - 1;
-    (!kinks).then(|| cycles as f64 * f64::from(CYCLE_US) * 1e-6 / row.least_s)
+    (!kinks).then(|| row.ratio(cycles))
 }
 
 #[test]
 fn contoured_corners_are_close_to_the_optimum() {
-    let rows = table();
+    let rows = table(include_str!("../data/contoured.csv"), 1.0);
     // between two curves the optimum enters and leaves more slowly than the curves permit, with acceleration left; the
     // planner passes only single boundaries that way
     let (most, typical) = (1.06, 1.025);

@@ -2,7 +2,7 @@
 
 use super::{contoured_at, dev};
 use crate::common::{Job, at, deviation, filtered, line, peaks};
-use kontur_kit::{Random, environment};
+use kontur_kit::{Pen, Random, environment};
 use kontur_motion::block::ContourSettings;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 
@@ -77,23 +77,21 @@ fn rounding_costs_no_time_under_ax_dev() {
     let count = environment("COUNT", 4);
     let mut random = Random::from_state(17);
     for program in 0..count {
-        let (mut heading, mut at) = (0.0, [0.0, 0.0]);
+        let mut pen = Pen::default();
         let edge = 0.3 * libm::pow(50.0, random.ratio());
-        let mut points = vec![at];
+        let mut points = vec![pen.at];
         for _ in 0..3 {
-            let l = edge * (0.4 + 1.2 * random.ratio());
-            let (sin, cos) = libm::sincos(heading);
-            at = [at[0] + l * cos, at[1] + l * sin];
-            points.push(at);
+            points.push(pen.go(edge * (0.4 + 1.2 * random.ratio())));
             let turn = 20.0 + 140.0 * random.ratio();
             let turn = if random.ratio() < 0.5 { -turn } else { turn }.to_radians();
             // in every other pair of programs corners are cut off by an edge that the curve bridges
             if program % 4 > 1 {
-                let (sin, cos) = libm::sincos(heading + 0.5 * turn);
-                at = [at[0] + 0.03 * cos, at[1] + 0.03 * sin];
-                points.push(at);
+                pen.heading += 0.5 * turn;
+                points.push(pen.go(0.03));
+                pen.heading += 0.5 * turn;
+            } else {
+                pen.heading += turn;
             }
-            heading += turn;
         }
         for (mode, freq_hz, ax_dev_mm) in [(2, 40.0, 0.01), (3, 20.0, 0.003), (1, 15.0, 0.02)] {
             let job = Job::new(1.0, if program % 2 == 0 { Hsc } else { Trapez });

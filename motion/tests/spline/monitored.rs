@@ -5,17 +5,15 @@ use super::*;
 /// Straight lines in chords of 0.1 to 0.6 mm, with corners of 30 to 140 degrees between them.
 fn lines(seed: u64) -> Vec<Vec<f64>> {
     let mut random = Random::from_state(seed);
-    let (mut heading, mut p) = (0.0, [0.0, 0.0]);
-    let mut points = vec![p.to_vec()];
+    let mut pen = Pen::default();
+    let mut points = vec![pen.at.to_vec()];
     for _ in 0..3 {
         let chord = 0.1 + 0.5 * random.ratio();
         for _ in 0..5 + (6.0 * random.ratio()) as usize {
-            let (sin, cos) = libm::sincos(heading);
-            p = [p[0] + chord * cos, p[1] + chord * sin];
-            points.push(p.to_vec());
+            points.push(pen.go(chord).to_vec());
         }
         let side = if random.ratio() < 0.5 { -1.0 } else { 1.0 };
-        heading += side * (30.0 + 110.0 * random.ratio()).to_radians();
+        pen.heading += side * (30.0 + 110.0 * random.ratio()).to_radians();
     }
     points
 }
@@ -31,9 +29,7 @@ fn guarded(kind: SlopeKind, (mode, freq_hz): (u8, f64), ax_dev_mm: Option<f64>) 
 fn costs_no_time(name: &str, job: &Job, points: &[Vec<f64>], tolerances_mm: [f64; 2]) {
     let sharp = job.drive(points, &[50.0]).len();
     for path_dev_mm in tolerances_mm {
-        let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-        let blocks = splined(job, settings, points, 50.0);
-        let round = job.run(&points[0], blocks.into_iter()).len();
+        let round = driven(job, path_dev_mm, points, 50.0).len();
         let most = sharp + sharp / 200 + 1;
         assert!(round <= most, "{name} {path_dev_mm}: {round} of {sharp} cycles");
     }

@@ -4,32 +4,31 @@ use super::*;
 
 /// Relative spread of the path speed away from start and stop.
 fn ripple(out: &[Setpoint]) -> f64 {
-    let middle = &out[out.len() / 5..4 * out.len() / 5];
-    let (mut low, mut high) = (f64::INFINITY, 0.0_f64);
-    for s in middle {
-        low = low.min(s.v_mm_s);
-        high = high.max(s.v_mm_s);
-    }
-    (high - low) / high
+    let middle = out[out.len() / 5..4 * out.len() / 5].iter().map(|s| s.v_mm_s);
+    let high = middle.clone().fold(0.0, f64::max);
+    (high - middle.fold(f64::INFINITY, f64::min)) / high
 }
 
 /// A polygonised circle of 10 mm: with the spline the speed is constant at half the admissible speed and, if the
-/// look-ahead covers the braking distance, also at its limit. TRAPEZ with NO_OPT=0; without it every acceleration ends
-/// at a block boundary, and the speed is not constant at the limit.
+/// look-ahead covers the braking distance, also at its limit; so it is with the smallest tolerance that leaves the spline as it
+/// is, `h^2 / (6 r)`.
 #[test]
 fn ripple_on_a_circle_with_the_spline() {
     for kind in [Hsc, Trapez] {
-        // 120 chords of 0.05 mm are shorter than the braking distance from 100 mm/s (7.5 mm)
-        let mut job = Job { window: 400, ..Job::new(1.0, kind) };
-        job.slope.optimised = kind == Trapez;
+        let job = machine(kind);
         for chord in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0] {
             let points = circle(10.0, chord);
-            for feed in [50.0, 100.0] {
-                let blocks = splined(&job, SplineSettings::default(), &points, feed);
-                let out = job.run(&points[0], blocks.into_iter());
-                let r = ripple(&out);
-                println!("{kind:?} chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
-                assert!(r < 0.01, "{kind:?} chord {chord} F {feed}: {r}");
+            for path_dev_mm in
+                [SplineSettings::default().path_dev_mm, natural(chord) * (1.0 + 1e-3)]
+            {
+                for feed in [50.0, 100.0] {
+                    let r = ripple(&driven(&job, path_dev_mm, &points, feed));
+                    println!(
+                        "{kind:?} chord {chord} {path_dev_mm} F {feed}: ripple {:.4} %",
+                        100.0 * r
+                    );
+                    assert!(r < 0.01, "{kind:?} chord {chord} {path_dev_mm} F {feed}: {r}");
+                }
             }
         }
     }
@@ -43,30 +42,11 @@ fn natural(chord: f64) -> f64 {
     20.0 * half * 2.0 * half / 6.0
 }
 
-/// The same with the smallest tolerance that leaves the spline as it is, `h^2 / (6 r)`.
-#[test]
-fn ripple_on_a_circle_with_the_least_tolerance() {
-    let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
-    job.slope.optimised = true;
-    for chord in [0.05, 0.2, 0.5, 1.0, 2.0] {
-        let points = circle(10.0, chord);
-        let path_dev_mm = natural(chord) * (1.0 + 1e-3);
-        let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-        for feed in [50.0, 100.0] {
-            let blocks = splined(&job, settings, &points, feed);
-            let r = ripple(&job.run(&points[0], blocks.into_iter()));
-            println!("chord {chord} F {feed}: ripple {:.4} %", 100.0 * r);
-            assert!(r < 0.01, "chord {chord} F {feed}: {r}");
-        }
-    }
-}
-
 /// Tolerances around `h^2 / (6 r)`, more than half of the sagitta, and below it: none is exceeded, in neither direction,
 /// and a smaller one never shortens the run.
 #[test]
 fn a_small_tolerance_on_a_circle() {
-    let mut job = Job { window: 400, ..Job::new(1.0, Hsc) };
-    job.slope.optimised = true;
+    let job = machine(Hsc);
     for chord in [0.5, 2.0] {
         let points = circle(10.0, chord);
         let mut last = 0;
@@ -90,10 +70,8 @@ fn a_small_tolerance_on_a_circle() {
 #[test]
 fn ripple_on_a_circle_with_estimated_curvature() {
     for kind in [Hsc, Trapez] {
-        let mut dynamics: ChannelDynamics = (*channel(vec![axis(1.0); 2])).clone();
-        dynamics.curvature_estimate = 3;
-        let mut job = Job { dynamics: Arc::new(dynamics), window: 400, ..Job::new(1.0, kind) };
-        job.slope.optimised = kind == Trapez;
+        let mut job = machine(kind);
+        Arc::make_mut(&mut job.dynamics).curvature_estimate = 3;
         for (chord, feed) in [(0.05, 50.0), (0.1, 50.0), (0.2, 50.0), (0.05, 500.0), (0.1, 500.0)] {
             let points = circle(10.0, chord);
             let r = ripple(&job.drive(&points, &[feed]));

@@ -3,31 +3,20 @@
 use super::*;
 use kontur_motion::tolerance::Kernels;
 
-fn machine(kind: SlopeKind) -> Job {
-    let mut job = Job { window: 400, ..Job::new(1.0, kind) };
-    job.slope.optimised = kind == Trapez;
-    job
-}
-
 /// 2 to 12 edges of 0.2 to 8 mm.
 fn few_edges(random: &mut Random) -> Vec<Vec<f64>> {
     let spread = random.pick(&[0.2, 0.6, 1.5]);
-    let (mut heading, mut p) = (random.between(-3.0, 3.0), [0.0, 0.0]);
-    let mut points = vec![p.to_vec()];
+    let mut pen = Pen { heading: random.between(-3.0, 3.0), ..Pen::default() };
+    let mut points = vec![pen.at.to_vec()];
     for _ in 0..2 + random.below(11) {
-        let edge = random.log(0.2, 8.0);
-        let (sin, cos) = libm::sincos(heading);
-        p = [p[0] + edge * cos, p[1] + edge * sin];
-        points.push(p.to_vec());
-        heading += spread * random.normal();
+        points.push(pen.go(random.log(0.2, 8.0)).to_vec());
+        pen.heading += spread * random.normal();
     }
     points
 }
 
 fn cycles(job: &Job, points: &[Vec<f64>], path_dev_mm: f64, feed: f64) -> usize {
-    let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-    let blocks = splined(job, settings, points, feed);
-    job.run(&points[0], blocks.into_iter()).len()
+    driven(job, path_dev_mm, points, feed).len()
 }
 
 /// From rest to rest the sharp polygon is one of the candidates: no spline is slower, up to the thousandth that a

@@ -112,14 +112,12 @@ fn coarse_chords_of_a_small_arc_are_no_corners() {
     let job = machine();
     for (radius, turn) in [(1.0, 0.36_f64), (0.75, 0.43), (1.0, 0.5), (0.6, 0.65)] {
         let chord = 2.0 * radius * libm::sin(0.5 * turn);
-        let (mut p, mut heading) = ([0.0, 0.0], 0.0_f64);
-        let mut points = vec![p.to_vec()];
+        let mut pen = Pen::default();
+        let mut points = vec![pen.at.to_vec()];
         let lengths = std::iter::once(5.0).chain(std::iter::repeat_n(chord, 6)).chain([5.0]);
         for (k, length) in lengths.enumerate() {
-            let (sin, cos) = libm::sincos(heading);
-            p = [p[0] + length * cos, p[1] + length * sin];
-            points.push(p.map(|x| libm::round(1000.0 * x) / 1000.0).to_vec());
-            heading += if k == 0 || k == 6 { 0.5 * turn } else { turn };
+            points.push(pen.go(length).map(|x| libm::round(1000.0 * x) / 1000.0).to_vec());
+            pen.heading += if k == 0 || k == 6 { 0.5 * turn } else { turn };
         }
         let settings = SplineSettings { path_dev_mm: 0.1, ..SplineSettings::default() };
         let blocks = splined(&job, settings, &points, FEED_MM_S);
@@ -145,20 +143,14 @@ fn chamfers_in_a_larger_tolerance() {
     let job = machine();
     for (corners, turn_deg) in [(2, 24.0), (2, 38.0), (3, 24.0), (3, 38.0), (4, 30.0)] {
         for chord in [0.05, 0.1, 0.14, 0.2, 0.25, 0.35, 0.5, 1.0] {
-            let (mut heading, mut p) = (0.0_f64, [0.0, 0.0]);
-            let mut points = vec![p.to_vec()];
+            let mut pen = Pen::default();
+            let mut points = vec![pen.at.to_vec()];
             for i in 0..=corners {
-                let length = if i == 0 || i == corners { 10.0 } else { chord };
-                let (sin, cos) = libm::sincos(heading);
-                p = [p[0] + length * cos, p[1] + length * sin];
-                points.push(p.to_vec());
-                heading += f64::to_radians(turn_deg);
+                points.push(pen.go(if i == 0 || i == corners { 10.0 } else { chord }).to_vec());
+                pen.heading += f64::to_radians(turn_deg);
             }
-            let [small, large] = [0.02, 0.1].map(|path_dev_mm| {
-                let settings = SplineSettings { path_dev_mm, ..SplineSettings::default() };
-                let blocks = splined(&job, settings, &points, FEED_MM_S);
-                job.run(&points[0], blocks.into_iter()).len()
-            });
+            let [small, large] =
+                [0.02, 0.1].map(|path_dev_mm| driven(&job, path_dev_mm, &points, FEED_MM_S).len());
             let what = format!("{corners} of {turn_deg} deg, {chord} mm: {large}, {small}");
             println!("{what}");
             assert!(large <= small + small / 40, "{what}");
@@ -206,11 +198,7 @@ fn the_reverse_takes_the_same_time() {
     for seed in 0..6 {
         let mut random = Random::from_state(seed);
         let points = circle_in(3, 600, |_| random.between(0.01, 0.15));
-        let settings = SplineSettings { path_dev_mm: 0.01, ..SplineSettings::default() };
-        let time = |points: &[Vec<f64>]| {
-            let blocks = splined(&job, settings, points, FEED_MM_S);
-            job.run(&points[0], blocks.into_iter()).len()
-        };
+        let time = |points: &[Vec<f64>]| driven(&job, 0.01, points, FEED_MM_S).len();
         let reversed: Vec<Vec<f64>> = points.iter().rev().cloned().collect();
         assert!(time(&points).abs_diff(time(&reversed)) <= 2);
     }

@@ -1,12 +1,16 @@
-//! A kit for all tests: random numbers, a comparison, tables of programs, distances from polylines, and a mass on a spring integrated in
-//! small steps. It depends on none of the crates under test.
+//! A kit for all tests: random numbers, a comparison, tables of programs, contours and distances from polylines, times of
+//! the fastest motion, and a mass on a spring integrated in small steps. It depends on none of the crates under test.
 
+mod fastest;
 mod oscillator;
+mod pen;
 mod polyline;
 mod random;
 pub mod rows;
 
+pub use fastest::second_order_time;
 pub use oscillator::Oscillator;
+pub use pen::Pen;
 pub use polyline::{from_polyline, largest};
 pub use random::{Random, count, environment, seed};
 

@@ -3,7 +3,7 @@
 /// Shortest vector from a polyline to a point.
 ///
 /// # Panics
-/// If the polyline has fewer than two points.
+/// If the polyline has no point.
 pub fn from_polyline<P: AsRef<[f64]>>(point: &[f64], polyline: &[P]) -> Vec<f64> {
     let mut best = (f64::INFINITY, 0, 0.0);
     for (k, ends) in polyline.windows(2).enumerate() {
@@ -24,11 +24,11 @@ pub fn from_polyline<P: AsRef<[f64]>>(point: &[f64], polyline: &[P]) -> Vec<f64>
         }
     }
     let (_, k, share) = best;
-    let (a, b) = (polyline[k].as_ref(), polyline[k + 1].as_ref());
+    let (a, b) = (polyline[k].as_ref(), polyline[(k + 1).min(polyline.len() - 1)].as_ref());
     a.iter().zip(b).zip(point).map(|((a, b), p)| p - a - share * (b - a)).collect()
 }
 
-/// Largest component of a vector, without its sign.
+/// Largest component of a vector, or value of a row, without its sign.
 pub fn largest(vector: &[f64]) -> f64 {
     vector.iter().fold(0.0, |most: f64, component| most.max(component.abs()))
 }

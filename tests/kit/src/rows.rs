@@ -1,6 +1,8 @@
 //! Tables of programs: in each line a program, an arrow and the expected result. `interpreter/tests/language/README.md` describes the
 //! form; the reader decides what the words after the arrow mean.
 
+use std::path::Path;
+
 /// A row of a table.
 #[derive(Clone, Debug, Default)]
 pub struct Row {
@@ -81,6 +83,41 @@ pub fn rows(table: &str) -> Vec<Row> {
         }
     }
     rows
+}
+
+impl Row {
+    /// The right side before its texts, and these.
+    pub fn words_and_texts(&self) -> (&str, &str) {
+        self.expected.split_at(self.expected.find('"').unwrap_or(self.expected.len()))
+    }
+}
+
+/// The rows of all tables of a folder that are wrong, with what they state and what is not so; also tables without a row.
+///
+/// # Errors
+/// A table cannot be read.
+pub fn wrong(
+    folder: impl AsRef<Path>,
+    mut faults: impl FnMut(&Row) -> Vec<String>,
+) -> std::io::Result<Vec<String>> {
+    let mut wrong = Vec::new();
+    for file in std::fs::read_dir(folder)? {
+        let table = file?.path();
+        if table.extension().is_none_or(|e| e != "txt") {
+            continue;
+        }
+        let rows = rows(&std::fs::read_to_string(&table)?);
+        if rows.is_empty() {
+            wrong.push(format!("{} has no row", table.display()));
+        }
+        for row in &rows {
+            let faults = faults(row).join("; ");
+            if !faults.is_empty() {
+                wrong.push(format!("{}: {}\n    {faults}", table.display(), row.text));
+            }
+        }
+    }
+    Ok(wrong)
 }
 
 fn number(text: &str) -> f64 {

@@ -15,6 +15,18 @@ fn centre_index(letter: u8) -> Option<usize> {
     (b'I'..=b'K').contains(&letter).then(|| usize::from(letter - b'I'))
 }
 
+/// A note where the value of an address is a comparison.
+fn truth_value(name: &Name, value: &Expr) -> Option<Box<Fault>> {
+    let ExprKind::Binary(binary) = &value.kind else { return None };
+    // in brackets it is meant
+    let bare = binary.left.span.start == value.span.start;
+    (bare && binary.op <= BinaryOp::GreaterEqual).then(|| {
+        let text = format!("the value of {} is a truth value here, 1 or 0", name.as_str());
+        let hint = "a second `=`, a comparison, AND and OR make one; write the number alone";
+        Fault::new(Condition::Dialect, text, value.span).hint(hint)
+    })
+}
+
 impl Decoder {
     pub(super) fn address(
         &mut self,
@@ -24,14 +36,8 @@ impl Decoder {
         span: Span,
         block: &mut Words<'_>,
     ) -> Outcome<()> {
-        if let ExprKind::Binary(binary) = &value.kind
-            && binary.op <= BinaryOp::GreaterEqual
-            // in brackets it is meant
-            && binary.left.span.start == value.span.start
-        {
-            let text = format!("the value of {} is a truth value here, 1 or 0", name.as_str());
-            let hint = "a second `=`, a comparison, AND and OR make one; write the number alone";
-            self.report.note(Fault::new(Condition::Dialect, text, value.span).hint(hint));
+        if let Some(fault) = truth_value(name, value) {
+            self.report.note(fault);
         }
         let axis = match name {
             Name::Letter(letter) => self.names.of_letter(*letter),

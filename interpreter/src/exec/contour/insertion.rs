@@ -15,6 +15,7 @@ use crate::exec::geometry::planar::{Side, cut, intersections, swept};
 use crate::exec::geometry::point::{Point, cross, dot, norm, sub};
 use crate::exec::step::SourceRef;
 use crate::syntax::ast::Span;
+use kontur_motion::axis::AxisVec;
 use kontur_motion::block::Feed;
 use kontur_motion::path::{ArcPath, ArcShape, LinePath, Path};
 use std::f64::consts::PI;
@@ -63,76 +64,49 @@ pub(in crate::exec) fn between(
     after: &mut Motion,
     insertion: &Insertion,
 ) -> Outcome<Option<Inserted>> {
-    let span = insertion.span;
     let plane = before.plane;
-    if before.tilt != after.tilt {
-        let what = "a chamfer or rounding between two coordinate systems";
-        return Err(Fault::unsupported(what, span));
-    }
-    let flat = |m: &Motion| stays_in(&m.block.path, plane).then(|| Side::of(&m.block.path, plane));
-    let (Some(Some(a)), Some(Some(b))) = (flat(before), flat(after)) else {
-        let what = "a chamfer or rounding between motions outside the active plane";
-        return Err(Fault::unsupported(what, span));
-    };
+    let sides = sides(before, after, insertion.span)?;
+    let [a, b] = &sides;
     let (u, w) = (a.tangent(true), b.tangent(false));
     let turn = cross(u, w);
-    let lines = matches!((&a, &b), (Side::Line { .. }, Side::Line { .. }));
+    let lines = matches!((a, b), (Side::Line { .. }, Side::Line { .. }));
     if turn.abs() < 1e-9 && dot(u, w) > 0.0 && (lines || insertion.kind == Kind::Rounding) {
         return Ok(None);
     }
-    let reversal = || {
+    let misfit = || {
         let text = format!(
             "a chamfer or rounding of {} mm does not fit between the two motions",
             insertion.size_mm
         );
-        Fault::new(Condition::Range, text, span)
+        Fault::new(Condition::Range, text, insertion.span)
     };
-    let (p, q, centre) = match insertion.kind {
-        Kind::Chamfer => {
-            let (p, q) = ends_at(&a, &b, insertion.size_mm).ok_or_else(reversal)?;
-            (p, q, None)
-        }
-        Kind::ChamferLength => {
-            let (p, q) = ends_apart(&a, &b, insertion.size_mm).ok_or_else(reversal)?;
-            (p, q, None)
-        }
-        Kind::Rounding => {
-            let (p, q, c) = tangent_arc(&a, &b, turn, insertion.size_mm).ok_or_else(reversal)?;
-            (p, q, Some(c))
-        }
-    };
+    let (ends, centre) = places(&sides, turn, insertion).ok_or_else(misfit)?;
     let corner = before.block.path.end().clone();
-    let point = |xy: [f64; 2]| {
+    let [p, q] = ends.map(|xy| {
         let mut v = corner.clone();
         (v[plane[0]], v[plane[1]]) = (xy[0], xy[1]);
         v
-    };
+    });
     let feed_axes = after.block.dynamics.feed_axes.clone();
-    let ends = [p, q];
-    let (p, q) = (point(p), point(q));
     let element = match centre {
         None => LinePath::new(p.clone(), q.clone(), &feed_axes).map(Path::Line),
-        Some(centre_mm) => {
-            let sweep_rad = swept(centre_mm, &p, &q, plane, turn > 0.0);
-            let shape = ArcShape { plane, centre_mm, sweep_rad };
-            ArcPath::new(p.clone(), q.clone(), shape, &feed_axes).map(Path::Arc)
-        }
+        Some(centre) => rounding(&p, &q, (centre, plane, turn > 0.0), &feed_axes),
     };
     let feed = match before.block.end_velocity_mm_s {
         Some(_) => before.feed_behind(),
         None => after.feed_beside(),
     };
-    let Some(element) = element else { return Err(reversal()) };
+    let element = element.ok_or_else(misfit)?;
     let others = [a.start_point(), b.end_point()];
     let leaves = [0, 1].map(|i| norm(sub(ends[i], others[i])) > NEAR * insertion.size_mm);
     if leaves[0] {
         let rest = cut(&before.block.path, None, Some(&p), &feed_axes);
-        before.block.path = rest.ok_or_else(reversal)?;
+        before.block.path = rest.ok_or_else(misfit)?;
     }
     let mut inserted = after.clone();
     if leaves[1] {
         let rest = cut(&after.block.path, Some(&q), None, &feed_axes);
-        after.block.path = rest.ok_or_else(reversal)?;
+        after.block.path = rest.ok_or_else(misfit)?;
     }
     inserted.block.path = element;
     inserted.compensation.clone_from(&before.compensation);
@@ -142,6 +116,56 @@ pub(in crate::exec) fn between(
     inserted.events = std::mem::take(&mut after.events);
     inserted.block.feed = insertion.feed.unwrap_or(feed);
     Ok(Some(Inserted { motion: Box::new(inserted), leaves }))
+}
+
+/// An arc about a centre in the plane, to the left or to the right.
+fn rounding(
+    p: &AxisVec,
+    q: &AxisVec,
+    (centre_mm, plane, left): (Point, [usize; 2], bool),
+    feed_axes: &[bool],
+) -> Option<Path> {
+    let sweep_rad = swept(centre_mm, p, q, plane, left);
+    let shape = ArcShape { plane, centre_mm, sweep_rad };
+    ArcPath::new(p.clone(), q.clone(), shape, feed_axes).map(Path::Arc)
+}
+
+/// The two motions in their plane.
+fn sides(before: &Motion, after: &Motion, span: Span) -> Outcome<[Side; 2]> {
+    if before.tilt != after.tilt {
+        let what = "a chamfer or rounding between two coordinate systems";
+        return Err(Fault::unsupported(what, span));
+    }
+    let plane = before.plane;
+    let flat = |m: &Motion| stays_in(&m.block.path, plane).then(|| Side::of(&m.block.path, plane));
+    let (Some(Some(a)), Some(Some(b))) = (flat(before), flat(after)) else {
+        let what = "a chamfer or rounding between motions outside the active plane";
+        return Err(Fault::unsupported(what, span));
+    };
+    Ok([a, b])
+}
+
+/// Ends of the element, and the centre of a rounding; `None` where it does not fit. `turn` is the sine of the corner.
+fn places(
+    [a, b]: &[Side; 2],
+    turn: f64,
+    insertion: &Insertion,
+) -> Option<([Point; 2], Option<Point>)> {
+    let size_mm = insertion.size_mm;
+    Some(match insertion.kind {
+        Kind::Chamfer => {
+            let (p, q) = ends_at(a, b, size_mm)?;
+            ([p, q], None)
+        }
+        Kind::ChamferLength => {
+            let (p, q) = ends_apart(a, b, size_mm)?;
+            ([p, q], None)
+        }
+        Kind::Rounding => {
+            let (p, q, centre) = tangent_arc(a, b, turn, size_mm)?;
+            ([p, q], Some(centre))
+        }
+    })
 }
 
 /// The change of the feed rate along the element: under G95 and G96 it follows the speed of the spindle, unless the element has

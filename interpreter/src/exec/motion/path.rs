@@ -221,13 +221,7 @@ impl Decoder {
         let Some(path) = self.path_of_block(words, is_arc, span)? else { return Ok(()) };
         self.join(self.motion.independent.moved_by(&path));
         let at = words.axes.first().map_or(span, |(_, _, at)| *at);
-        let feed = self.motion.feed_of(
-            &path,
-            &self.geometry.coordinates,
-            &self.modal,
-            output!(self),
-            at,
-        )?;
+        let feed = self.feed_of_block(&path, at)?;
         let end_velocity_mm_s = match words.end_feed {
             Some(end) => self.modal.end_velocity(end, feed, &self.machine, &path)?,
             None => None,
@@ -235,22 +229,7 @@ impl Decoder {
         let rapid = feed == Feed::Rapid;
         let full = words.has(Act::FullOverride);
         let feed_ratio = if full { 1.0 } else { self.motion.override_of(&path, rapid) };
-        let rounds = self.motion.rounds_corner(
-            words,
-            &self.modal,
-            &mut self.contour,
-            &mut self.report,
-            span,
-        );
-        let early_once = words.has(Act::EarlyBrakingOnce);
-        let late_braking = self.modal.brakes_late(early_once, span, &mut self.report);
-        self.motion.group_fits_corner(
-            rounds,
-            &self.geometry.coordinates,
-            &self.machine.channel,
-            &self.contour,
-            span,
-        )?;
+        let (rounds, late_braking) = self.end_of_block(words, span)?;
         let course = self.feed_course(words, &path, feed, rounds, span)?;
         let hsc = (
             self.contour.hsc.contour(),
@@ -292,6 +271,23 @@ impl Decoder {
         feed::check_time(&block, at, &mut self.report);
         self.send(block, in_plane, course, span);
         Ok(())
+    }
+
+    /// The feed of a block along its path.
+    fn feed_of_block(&mut self, path: &Path, at: Span) -> Outcome<Feed> {
+        let coordinates = &self.geometry.coordinates;
+        self.motion.feed_of(path, coordinates, &self.modal, output!(self), at)
+    }
+
+    /// Whether the corner behind a block is rounded, and whether the block brakes late.
+    fn end_of_block(&mut self, words: &Words<'_>, span: Span) -> Outcome<(bool, bool)> {
+        let (contour, report) = (&mut self.contour, &mut self.report);
+        let rounds = self.motion.rounds_corner(words, &self.modal, contour, report, span);
+        let early_once = words.has(Act::EarlyBrakingOnce);
+        let late_braking = self.modal.brakes_late(early_once, span, report);
+        let (coordinates, channel) = (&self.geometry.coordinates, &self.machine.channel);
+        self.motion.group_fits_corner(rounds, coordinates, channel, &self.contour, span)?;
+        Ok((rounds, late_braking))
     }
 
     /// The path of a block to its targets, checked as far as it is known; `None` if it does not travel or belongs to a control area.

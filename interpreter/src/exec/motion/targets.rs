@@ -110,17 +110,7 @@ impl Decoder {
             self.motion.couplings.moves_no_slave(*axis, &self.names, *at)?;
         }
         let mut start = self.geometry.coordinates.target().clone();
-        let mut targets: Targets = words
-            .axes
-            .iter()
-            .enumerate()
-            .map(|(i, (axis, value, _))| {
-                let absolute = words.is_absolute(i, self.modal.absolute);
-                let value = value
-                    * self.geometry.coordinate_unit(*axis, absolute, &self.machine, &self.modal);
-                Target { axis: *axis, value, absolute }
-            })
-            .collect();
+        let mut targets = self.targets_of(words);
         in_format(&targets, words, &self.names)?;
         self.geometry.diameters_fit(words, &self.machine, &self.modal, &self.names)?;
         if self.machine.channel.language.several_words {
@@ -165,6 +155,16 @@ impl Decoder {
             words.axes.first().map_or_else(Span::default, |(_, _, at)| *at),
         )?;
         Ok(start)
+    }
+
+    /// Targets of the coordinate words in mm or deg.
+    fn targets_of(&self, words: &Words<'_>) -> Targets {
+        let target = |(i, (axis, value, _)): (usize, &(usize, f64, Span))| {
+            let absolute = words.is_absolute(i, self.modal.absolute);
+            let unit = self.geometry.coordinate_unit(*axis, absolute, &self.machine, &self.modal);
+            Target { axis: *axis, value: value * unit, absolute }
+        };
+        words.axes.iter().enumerate().map(target).collect()
     }
 }
 

@@ -1,21 +1,21 @@
-//! Open program files: text, structure, and the parsed blocks that run more than once.
+//! Open program files: text, structure, and the parsed blocks that run more than once, which are those of [`parsed`](super::parsed).
 
-use super::index::{Index, Labels, STRUCTURE_MAX, Section, build, structure};
+use super::index::{Index, Labels, STRUCTURE_MAX, Section, build};
+use super::parsed::{Fetched, Macros, Parsed, Tree, parse};
 use super::places::whole_block;
 use super::reads::Reads;
 use super::state::Numbers;
 use super::unusable::{FileError, is_foreign};
-use crate::diag::{Condition, Diagnostic, Location};
+use crate::diag::{Diagnostic, Location};
 use crate::exec::options::SkipLevels;
 use crate::exec::step::Opened;
 use crate::exec::values::variables::external;
-use crate::source::{BlockReader, OpenError, Position, RawBlock, Sources};
+use crate::source::{BlockReader, OpenError, Position, Sources};
 use crate::syntax::ast::{Block, LabelKind, Span};
 use crate::syntax::macros;
 use crate::syntax::{Parser, Plain, PlainFrame, PlainWord};
 use std::collections::BTreeMap;
 use std::io;
-use std::ops::Deref;
 use std::sync::Arc;
 
 /// Maximum number of parsed blocks kept for all files; further ones are parsed again on every pass.
@@ -23,44 +23,6 @@ const CACHED_MAX: usize = 50_000;
 
 /// Maximum number of block numbers used more than once that are kept per program.
 const TWICE_MAX: usize = 10_000;
-
-/// A parsed block.
-#[derive(Debug)]
-pub(in crate::exec) struct Parsed {
-    pub(in crate::exec::program) block: Block,
-    /// What it reads of the machine.
-    pub(in crate::exec::program) reads: Reads,
-    /// Whether its text has an error.
-    pub(in crate::exec::program) faulty: bool,
-}
-
-/// A block to be executed.
-#[derive(Debug)]
-pub(in crate::exec) enum Fetched {
-    /// A plain block that runs once, in [`Files::plain`]: its tree is made only if needed.
-    Plain,
-    Tree(Tree),
-}
-
-/// A block with its tree.
-#[derive(Debug)]
-pub(in crate::exec) enum Tree {
-    /// It runs again, so its file keeps it as well.
-    Kept(Arc<Parsed>),
-    /// Parsed for this run only.
-    Once(Parsed),
-}
-
-impl Deref for Tree {
-    type Target = Parsed;
-
-    fn deref(&self) -> &Parsed {
-        match self {
-            Self::Kept(parsed) => parsed,
-            Self::Once(parsed) => parsed,
-        }
-    }
-}
 
 /// One file.
 #[derive(Debug)]
@@ -70,8 +32,6 @@ pub(in crate::exec) struct ProgramFile {
     pub(in crate::exec::program) index: Arc<Index>,
     cache: BTreeMap<u64, (Arc<Parsed>, Position)>,
 }
-
-type Macros = BTreeMap<Box<str>, Box<str>>;
 
 /// The structure of files that were read as a whole before, with the faults found in it.
 ///
@@ -411,57 +371,4 @@ impl Files {
             _ => Some(raw.locate(name, span)),
         }
     }
-}
-
-fn parse(
-    raw: &RawBlock<'_>,
-    file: &Arc<str>,
-    declaration: bool,
-    parser: &Parser,
-    table: &Macros,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Block {
-    let read = |raw: &RawBlock<'_>, diagnostics: &mut Vec<Diagnostic>| {
-        if declaration {
-            parser.declaration(raw, file, diagnostics)
-        } else {
-            parser.block(raw, file, diagnostics)
-        }
-    };
-    if table.is_empty() {
-        return read(raw, diagnostics);
-    }
-    let lookup = |name: &str| table.get(name).map(|text| &**text);
-    match macros::expand(raw, file, &lookup) {
-        Ok(Some(expanded)) => {
-            let expanded = expanded.raw();
-            diagnostics.extend(structure_of_macro(raw, &expanded, file));
-            read(&expanded, diagnostics)
-        }
-        Ok(None) => read(raw, diagnostics),
-        Err(mut diagnostic) => {
-            if let Some(location) = &mut diagnostic.source {
-                location.block = super::index::number_of(raw.text);
-            }
-            diagnostics.push(*diagnostic);
-            Block::default()
-        }
-    }
-}
-
-/// K-MACRO-CONTROL if only the macros of a block give it a place in the structure of its program: the structure is
-/// determined before the macros are known.
-fn structure_of_macro(
-    raw: &RawBlock<'_>,
-    expanded: &RawBlock<'_>,
-    file: &Arc<str>,
-) -> Option<Diagnostic> {
-    let (name, at) = structure(expanded.text)?;
-    if structure(raw.text).is_some_and(|(written, _)| written == name) {
-        return None;
-    }
-    let mut location = expanded.locate(file, Span::new(at, at + 1));
-    location.block = super::index::number_of(raw.text);
-    let text = format!("`{name}` comes from a macro");
-    Some(Diagnostic::new(Condition::MacroControl, text).at(location))
 }

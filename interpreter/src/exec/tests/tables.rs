@@ -7,33 +7,15 @@ use crate::exec::SpindleMotion;
 use crate::exec::step::ShapingSettings;
 use crate::machine::Machine;
 use crate::source::MemorySources;
-use kontur_kit::rows::{fits, is, lines, rows};
+use kontur_kit::pieces;
+use kontur_kit::rows::{Row, fits, is, lines, rows, wrong};
 use kontur_motion::block::{Block, ContourMode, Feed};
 use kontur_motion::path::Path;
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::sync::Arc;
 
 /// Words that begin a list in a row.
-const LISTS: [&str; 17] = [
-    "path",
-    "length",
-    "arc",
-    "feed",
-    "end",
-    "ratio",
-    "late",
-    "slope",
-    "acc",
-    "vector",
-    "contour",
-    "spline",
-    "angle",
-    "tolerance",
-    "guard",
-    "steps",
-    "does",
-];
+const LISTS: &str = "path length arc feed end ratio late slope acc vector contour spline angle tolerance guard steps does";
 
 /// Results of a run, by the word that introduces them in a row; messages have no such word.
 fn found(word: &str, run: &Run) -> Vec<String> {
@@ -173,7 +155,7 @@ fn compare(run: &Run, expected: &str) -> Result<(), String> {
         let axis = ["X", "Y", "Z"].iter().position(|axis| word.starts_with(axis));
         match (word, axis) {
             ("ok", _) => {}
-            _ if LISTS.contains(&word) => lists.push((word, Vec::new())),
+            _ if LISTS.split(' ').any(|list| list == word) => lists.push((word, Vec::new())),
             (_, Some(axis)) if is(&word[1..], &run.end[axis].to_string()) => {}
             (_, Some(_)) => wrong.push(format!("ends at {:?}", run.end)),
             _ => lists.last_mut().unwrap().1.push(word),
@@ -204,53 +186,43 @@ fn compare(run: &Run, expected: &str) -> Result<(), String> {
     Err(wrong.join("; "))
 }
 
-/// Rows of a table with different results, these results, and the number of rows.
-fn faults(table: &str, machines: &mut BTreeMap<String, Arc<Machine>>) -> (String, usize) {
-    let rows = rows(table);
-    let mut wrong = String::new();
-    for row in &rows {
-        let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
-        let machine = machines.entry(settings.join(" ")).or_insert_with(|| machine(&settings));
-        let run = |program: &str| {
-            let main = MemorySources::new().with("main.nc", program);
-            let files = row.files.iter().fold(main, |s, (name, text)| s.with(name, text.as_str()));
-            run_with(files, Arc::clone(machine), Options::default())
-        };
-        let found = run(&row.program);
-        let (expected, other) =
-            row.expected.split_once(" as: ").unwrap_or((row.expected.as_str(), ""));
-        if let Err(what) = compare(&found, expected) {
-            let _ = writeln!(wrong, "{}\n    {what}", row.text);
-        }
-        if !other.is_empty() {
-            let (found, other) = (whole(&found), whole(&run(&(lines(other) + "M30\n"))));
-            let differ = found.iter().zip(&other).find(|(found, other)| found != other);
-            if differ.is_some() || found.len() != other.len() {
-                let _ = writeln!(wrong, "{}\n    not so: {differ:?}", row.text);
-            }
+/// Machines by their settings.
+type Machines = BTreeMap<String, Arc<Machine>>;
+
+/// What a row states and the program does not do.
+fn faults(row: &Row, machines: &mut Machines) -> Vec<String> {
+    let settings: Vec<&str> = row.settings.iter().map(String::as_str).collect();
+    let machine = machines.entry(settings.join(" ")).or_insert_with(|| machine(&settings));
+    let run = |program: &str| {
+        let main = MemorySources::new().with("main.nc", program);
+        let files = row.files.iter().fold(main, |s, (name, text)| s.with(name, text.as_str()));
+        run_with(files, Arc::clone(machine), Options::default())
+    };
+    let found = run(&row.program);
+    let (expected, other) = row.expected.split_once(" as: ").unwrap_or((row.expected.as_str(), ""));
+    let mut wrong: Vec<String> = compare(&found, expected).err().into_iter().collect();
+    if !other.is_empty() {
+        let (found, other) = (whole(&found), whole(&run(&(lines(other) + "M30\n"))));
+        let differ = found.iter().zip(&other).find(|(found, other)| found != other);
+        if differ.is_some() || found.len() != other.len() {
+            wrong.push(format!("not so: {differ:?}"));
         }
     }
-    (wrong, rows.len())
+    wrong
 }
 
 #[test]
 fn programs_do_what_their_rows_say() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/language");
-    let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
-    let mut machines = BTreeMap::new();
-    let mut wrong = String::new();
-    for file in files.filter(|file| file.extension().is_some_and(|e| e == "txt")) {
-        let (faults, rows) = faults(&std::fs::read_to_string(&file).unwrap(), &mut machines);
-        assert!(rows > 0, "{} has no row", file.display());
-        wrong += &faults;
-    }
-    assert!(wrong.is_empty(), "{wrong}");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/language");
+    let mut machines = Machines::new();
+    let wrong = wrong(folder, |row| faults(row, &mut machines)).unwrap();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// A wrong row is detected, whatever kind of result is wrong.
 #[test]
 fn wrong_rows_are_found() {
-    let row = |row: &str| faults(row, &mut BTreeMap::new()).0.is_empty();
+    let row = |row: &str| faults(&rows(row)[0], &mut Machines::new()).is_empty();
     assert!(row("X1 F100 | Y2 -> X1 Y2 Z0 path (1,0,0) (1,2)"));
     assert!(row("#MSG [\"a b\"] | #MSG [\"c\"] -> \"a b\" \"c\""));
     assert!(row("X1 F100 | Y=P5 -> 20925@2:3 X1"));
@@ -262,30 +234,14 @@ fn wrong_rows_are_found() {
     ));
     assert!(row("X1 F100 | X2 -> ok as: F100 X1 | G91 X1"));
     assert!(row("G01 X1 -> 20008 about \"no F word\""));
-    for wrong in [
-        "X1 F100 | X2 -> ok as: F100 X1 | X3",
-        "X1 F100 -> ok as: X1 F100 | X2",
-        "G01 X1 -> 20008 about \"no F word\" \"never said\"",
-        "X1 F100 -> X1.00000001",
-        "X1 F100 -> K-0009",
-        "X1 F100 | Y=P5 -> X1",
-        "X1 F100 | Y=P5 -> 20925@2:4",
-        "X1 F100 | Y=P5 -> 20925 ..  20925",
-        "X1 F100 | Y2 -> path (1,0,0)",
-        "X1 F100 | Y2 -> path (1,1,0) (1,2)",
-        "X1 F100 | Y2 -> path _",
-        "X1 F100 | Y2 -> path (2) ..",
-        "X1 F600 -> feed rapid",
-        "X1 F600 -> feed 10s",
-        "G137 G93 F2 X1 -> feed 2",
-        "X10 F100 | Y10 -> length 10 11",
-        "G02 X10 I5 F100 -> arc (5,0,180)",
-        "G02 X10 I5 F100 -> arc line",
-        "X1 F100 | G04 1 -> steps move 2s",
-        "X1 F100 | M5 -> does M3",
-        "#MSG [\"a b\"] -> \"a\"",
-        "#MSG [\"a\"] | #MSG [\"b\"] -> \"a\"",
-    ] {
+    for wrong in pieces(
+        "X1 F100 | X2 -> ok as: F100 X1 | X3 ¦ X1 F100 -> ok as: X1 F100 | X2 ¦ X1 F100 -> X1.00000001 ¦ X1 F100 -> K-0009
+G01 X1 -> 20008 about \"no F word\" \"never said\" ¦ X1 F100 | Y=P5 -> X1 ¦ X1 F100 | Y=P5 -> 20925@2:4
+X1 F100 | Y=P5 -> 20925 ..  20925 ¦ X1 F100 | Y2 -> path (1,0,0) ¦ X1 F100 | Y2 -> path (1,1,0) (1,2) ¦ X1 F100 | Y2 -> path _
+X1 F100 | Y2 -> path (2) .. ¦ X1 F600 -> feed rapid ¦ X1 F600 -> feed 10s ¦ G137 G93 F2 X1 -> feed 2
+X10 F100 | Y10 -> length 10 11 ¦ G02 X10 I5 F100 -> arc (5,0,180) ¦ G02 X10 I5 F100 -> arc line
+X1 F100 | G04 1 -> steps move 2s ¦ X1 F100 | M5 -> does M3 ¦ #MSG [\"a b\"] -> \"a\" ¦ #MSG [\"a\"] | #MSG [\"b\"] -> \"a\"",
+    ) {
         assert!(!row(wrong), "{wrong}");
     }
 }

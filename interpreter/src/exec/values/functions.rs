@@ -304,6 +304,17 @@ impl TextCall<'_> {
     }
 }
 
+/// `ORD`: the code of a character, of the first one if no position is given.
+fn code(arguments: &TextCall<'_>, span: Span) -> Outcome<f64> {
+    let s = arguments.text(0)?;
+    let at = arguments.call.arguments.get(1).map_or(Ok(1), |_| arguments.count(1))?;
+    let character = at.checked_sub(1).and_then(|i| s.get(i)).ok_or_else(|| {
+        let text = format!("ORD: the text has {} characters, none at {at}", s.len());
+        Fault::new(Condition::Range, text, span)
+    })?;
+    Ok(f64::from(u32::from(*character)))
+}
+
 /// Functions of texts (206023179): `LEFT[s, n]`, `MID[s, n, position]`, `DELETE[s, n, position]`, `INSERT[s, t, position]`,
 /// `REPLACE[s, t, n, position]`.
 fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<Value> {
@@ -312,16 +323,7 @@ fn text_function(decoder: &Decoder, call: &FunctionCall, span: Span) -> Outcome<
         |parts: [&[char]; 3]| Value::Text(parts.concat().iter().collect::<String>().into());
     Ok(match call.function {
         Function::Len => Value::Number(arguments.text(0)?.len() as f64),
-        // the code of a character, of the first one if no position is given
-        Function::Ord => {
-            let s = arguments.text(0)?;
-            let at = call.arguments.get(1).map_or(Ok(1), |_| arguments.count(1))?;
-            let character = at.checked_sub(1).and_then(|i| s.get(i)).ok_or_else(|| {
-                let text = format!("ORD: the text has {} characters, none at {at}", s.len());
-                Fault::new(Condition::Range, text, span)
-            })?;
-            Value::Number(f64::from(u32::from(*character)))
-        }
+        Function::Ord => Value::Number(code(&arguments, span)?),
         Function::Left => {
             let s = arguments.text(0)?;
             joined([&s[..arguments.count(1)?.min(s.len())], &[], &[]])

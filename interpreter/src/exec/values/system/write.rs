@@ -39,18 +39,12 @@ pub(in crate::exec) fn write(
     match names[..] {
         ["G", "NP", "V", _] | ["G", "NP", "V"] => {
             let group = path.index(d, 1, LAST_ZERO_GROUP)?;
-            let axis = path.axis(d, 3)?;
-            d.geometry.coordinates.set_zero_entry(
-                group,
-                axis,
-                x()? * d.modal.axis_unit(&d.machine.axes[axis]),
-            );
+            let (axis, offset) = zero_offset(d, &path, x)?;
+            d.geometry.coordinates.set_zero_entry(group, axis, offset);
         }
         ["G", "NP_AKT", "V", _] | ["G", "NP_AKT", "V"] => {
-            let axis = path.axis(d, 3)?;
-            d.geometry
-                .coordinates
-                .set_zero_offset(axis, x()? * d.modal.axis_unit(&d.machine.axes[axis]));
+            let (axis, offset) = zero_offset(d, &path, x)?;
+            d.geometry.coordinates.set_zero_offset(axis, offset);
         }
         ["G", "NP_DEFAULT"] => write_default_group(d, x()?, span)?,
         ["G", "CYCLE_CHANGES_MODAL"] => {
@@ -58,18 +52,11 @@ pub(in crate::exec) fn write(
             (d.calls.cycle_changes_stay, d.calls.retain_cycle_changes) = (stay, stay);
         }
         ["G", name @ ("MAX_NC_BLOCKS_AHEAD" | "MAX_MOTION_BLOCKS_AHEAD")] => {
-            d.calls.limit_blocks_ahead(
-                usize::from(name == "MAX_MOTION_BLOCKS_AHEAD"),
-                x()?,
-                span,
-                &mut d.report,
-            )?;
+            let motions = usize::from(name == "MAX_MOTION_BLOCKS_AHEAD");
+            d.calls.limit_blocks_ahead(motions, x()?, span, &mut d.report)?;
         }
         ["G", "WZ_AKT", "WEAR_CONST"] => {
-            d.geometry.tools.active.wear_ratio = x()? * WEAR_UNIT;
-            if d.motion.wear.on {
-                d.motion.apply_wear(&d.geometry, &d.modal, &mut d.contour, span)?;
-            }
+            write_wear_constant(d, x()?, span)?;
         }
         // spindles have no M functions free for other purposes here (P-CHAN-00098)
         ["SPDL", "M_FCT_FREE"] => {
@@ -84,20 +71,45 @@ pub(in crate::exec) fn write(
         ["G", "WZR"] => {
             d.geometry.tools.active.radius_mm = x()?;
         }
-        ["G", "WZL"] => {
-            d.geometry.tools.active.length_mm = x()?;
-            d.geometry.coordinates.tool_programmed();
-            d.geometry.apply_tool(d.modal.plane.main_axes());
-        }
+        ["G", "WZL"] => write_tool_length(d, x()?),
         ["G", "WZ_AKT", ..] => write_active_tool(d, &path, &names[2..], x()?)?,
         ["G", "WZ", ..] => write_listed_tool(d, &path, &names[2..], value)?,
-        _ if find(segments).is_some() => {
-            let text = format!("V.{} may not be written", written(segments));
-            return Err(Fault::new(Condition::VariableNotWritable, text, span));
-        }
+        _ if find(segments).is_some() => return Err(not_writable(segments, span)),
         _ => return Err(unknown(d, segments, span)),
     }
     Ok(())
+}
+
+/// 20100.
+fn not_writable(segments: &[Segment], span: Span) -> Box<Fault> {
+    let text = format!("V.{} may not be written", written(segments));
+    Fault::new(Condition::VariableNotWritable, text, span)
+}
+
+/// Axis and offset in mm or deg of a zero offset.
+fn zero_offset(
+    d: &Decoder,
+    path: &Path<'_>,
+    value: impl FnOnce() -> Outcome<f64>,
+) -> Outcome<(usize, f64)> {
+    let axis = path.axis(d, 3)?;
+    Ok((axis, value()? * d.modal.axis_unit(&d.machine.axes[axis])))
+}
+
+/// `V.G.WZ_AKT.WEAR_CONST`.
+fn write_wear_constant(d: &mut Decoder, value: f64, span: Span) -> Outcome<()> {
+    d.geometry.tools.active.wear_ratio = value * WEAR_UNIT;
+    if d.motion.wear.on {
+        d.motion.apply_wear(&d.geometry, &d.modal, &mut d.contour, span)?;
+    }
+    Ok(())
+}
+
+/// `V.G.WZL`.
+fn write_tool_length(d: &mut Decoder, value: f64) {
+    d.geometry.tools.active.length_mm = value;
+    d.geometry.coordinates.tool_programmed();
+    d.geometry.apply_tool(d.modal.plane.main_axes());
 }
 
 /// `V.G.KIN[..]`: stored without effect.
