@@ -23,9 +23,9 @@ mod meet;
 mod sine;
 
 use crate::profile::{MotionState, Phase, Profile, RampShape, Rates, ThirdOrderLimits};
-use climb::climb;
+use climb::{climb, climb_beyond};
 use level::level;
-use meet::Meet;
+use meet::{Follow, Meet};
 
 /// Shortest ramp in s.
 const SHORTEST_RAMP_S: f64 = 1e-4;
@@ -120,8 +120,10 @@ pub(crate) fn ride(cells: &[Cell], (v0, a0): (f64, f64), v1: f64) -> Option<Prof
         return speed.map(|speed| Profile::over(speed, length));
     }
     let cells = &joined(own(cells), Some((v0, v1)))[..];
-    let rise = climb(cells, v0, a0)?;
     let fall = turned(&climb(&mirror(cells), v1, 0.0)?, length);
+    // beyond the last crossing the speed is that of the fall
+    let mut follow = Follow::new(cells, &fall);
+    let rise = climb_beyond(cells, (v0, a0), |phase| follow.has_crossed_for_good(phase))?;
     let speed = Meet { cells, rise: &rise, fall: &fall, v1 }.speed()?;
     Some(Profile::over(speed, length))
 }

@@ -42,20 +42,45 @@ pub(super) struct Climb<'a> {
     here: Phase,
     /// Number of phases output up to the last point at which the speed was cut.
     base: usize,
+    /// The least limit of the end of each block and of those after it.
+    least: Vec<f64>,
 }
 
 /// Phases from `v0` with acceleration `a0` to the end, cut where a limit drops. `None` if the speed gets too low.
 pub(super) fn climb(cells: &[Block], v0: f64, a0: f64) -> Option<Vec<Phase>> {
-    let out = Vec::with_capacity(4 * cells.len());
-    let mut climb = Climb { cells, out, c: 0, here: Phase::state(0.0, v0, a0), base: 0 };
+    climb_beyond(cells, (v0, a0), |_| false)
+}
+
+/// As [`climb`], up to a phase that is `beyond` what is needed; the phases up to there are those of the whole rise.
+pub(super) fn climb_beyond(
+    cells: &[Block],
+    (v0, a0): (f64, f64),
+    mut beyond: impl FnMut(&Phase) -> bool,
+) -> Option<Vec<Phase>> {
+    let (out, here) = (Vec::with_capacity(4 * cells.len()), Phase::state(0.0, v0, a0));
+    let mut climb = Climb { cells, out, c: 0, here, base: 0, least: least_ahead(cells) };
     climb.settle()?;
     while climb.c < cells.len() {
         if climb.out.len() > MOST_PHASES[0] * cells.len() + MOST_PHASES[1] {
             return None;
         }
+        // a limit ahead lowers the rise from here on at most: this speed passes it without acceleration
+        let is_final = climb.here.a == 0.0 && climb.here.v <= climb.least[climb.c];
+        if is_final && climb.out.last().is_some_and(&mut beyond) {
+            break;
+        }
         climb.step()?;
     }
     Some(climb.out)
+}
+
+/// The least limit of the end of each block and of those after it.
+fn least_ahead(cells: &[Block]) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; cells.len()];
+    for c in (1..cells.len()).rev() {
+        least[c - 1] = least[c].min(cells[c - 1].cap).min(cells[c].v);
+    }
+    least
 }
 
 impl Climb<'_> {
@@ -283,7 +308,9 @@ impl Climb<'_> {
         if touch != Touch::Inside {
             return unknown;
         }
-        let Some(t) = self.reaches(phase) else { return unknown };
+        // where no limit drops, a later moment is never better, and the search may begin anywhere
+        let from = if is_drop(self.least[self.c], v_ref) { phase.t } else { self.guess(phase) };
+        let Some(t) = self.reaches(phase, from) else { return unknown };
         let (within, beyond) = (t - ASIDE_S, t + ASIDE_S);
         let lands = |t| self.lands(self.c, phase.after(t), v_ref);
         let is_between = within > 0.0
@@ -293,9 +320,23 @@ impl Climb<'_> {
         if is_between { (within, beyond) } else { unknown }
     }
 
-    /// The moment of a phase from which a ramp down to zero ends at the velocity of the block in which it ends.
-    fn reaches(&self, phase: &Phase) -> Option<f64> {
-        let mut t = phase.t;
+    /// The moment of a phase from which a ramp down to zero ends at the velocity of its block, if it ends there.
+    fn guess(&self, phase: &Phase) -> f64 {
+        let cell = &self.cells[self.c];
+        let gain = cell.v * (1.0 + SLACK) - phase.v;
+        let (half, down) = (0.5 / phase.j, 0.5 / cell.jerks[1]);
+        let t = if phase.j > 0.0 {
+            let square = (gain + phase.a * phase.a * half) / (half + down);
+            (square.max(0.0).sqrt() - phase.a) / phase.j
+        } else {
+            gain / phase.a - phase.a * down
+        };
+        t.clamp(0.0, phase.t)
+    }
+
+    /// The moment of a phase, searched for from moment `t` on, from which a ramp down to zero ends at the velocity of the
+    /// block in which it ends.
+    fn reaches(&self, phase: &Phase, mut t: f64) -> Option<f64> {
         for _ in 0..STEPS {
             let from = phase.after(t);
             let (cell, v) = self.landing(&from)?;
