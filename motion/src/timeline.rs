@@ -10,7 +10,7 @@ use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::Span;
-use crate::profile::{Profile, State};
+use crate::profile::{Profile, State, count_up_to};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use reason::Low;
@@ -188,22 +188,31 @@ impl Entry {
     pub(crate) fn split(&self, n: usize) -> Option<[Self; 2]> {
         let s = self.blocks[n - 1].1;
         let (before, behind) = self.profile.split(s)?;
-        let mut parts = [self.clone(), self.clone()];
-        let [first, second] = &mut parts;
-        first.end = first.start.plus(before.duration());
-        (second.start, second.s0) = (first.end, first.s0 + s);
-        (first.profile, second.profile) = (before, behind);
-        first.blocks.truncate(n);
-        first.feeds.truncate(n);
-        first.stops = false;
-        second.blocks.drain(..n);
-        second.feeds.drain(..n.min(self.feeds.len()));
-        for block in &mut second.blocks {
-            block.1 -= s;
-        }
-        first.lows.clear();
-        second.lows.clear();
-        Some(parts)
+        let (own, later) = self.blocks.split_at(n);
+        let (own_feeds, later_feeds) = self.feeds.split_at(n.min(self.feeds.len()));
+        let later = later.iter().map(|(queued, end)| (Arc::clone(queued), end - s));
+        let cut = self.start.plus(before.duration());
+        let first = Self {
+            end: cut,
+            profile: before,
+            blocks: own.iter().cloned().collect(),
+            feeds: own_feeds.to_vec(),
+            caps: self.caps.clone(),
+            lows: Vec::new(),
+            stops: false,
+            ..*self
+        };
+        let second = Self {
+            start: cut,
+            s0: self.s0 + s,
+            profile: behind,
+            blocks: later.collect(),
+            feeds: later_feeds.to_vec(),
+            caps: self.caps.clone(),
+            lows: Vec::new(),
+            ..*self
+        };
+        Some([first, second])
     }
 
     /// Replaces a block by parts of it.
@@ -256,7 +265,7 @@ impl Entry {
     pub(crate) fn walk(&self, cycle: CycleTime) -> Walk<'_> {
         let (start_s, end_s) = (self.start.seconds(), self.end.seconds());
         let last_k = if self.stops { self.end.next_tick(cycle) } else { u64::MAX };
-        Walk { entry: self, cycle, start_s, end_s, last_k }
+        Walk { entry: self, cycle, start_s, end_s, last_k, phases: None, blocks: None }
     }
 
     /// Moments in cycles and path lengths of the program at which the blocks of the span are entered.
@@ -343,7 +352,7 @@ impl Timeline {
 }
 
 /// An entry with the values that are the same in all of its cycles.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Walk<'a> {
     entry: &'a Entry,
     cycle: CycleTime,
@@ -351,6 +360,9 @@ pub(crate) struct Walk<'a> {
     end_s: f64,
     /// Cycle of the end of a motion.
     last_k: u64,
+    /// Numbers of phases up to the last cycle that was read, and of blocks that were over in it.
+    phases: Option<usize>,
+    blocks: Option<usize>,
 }
 
 impl Walk<'_> {
@@ -366,16 +378,21 @@ impl Walk<'_> {
 
     /// State in cycle `k`; exact at the end of a motion.
     #[inline]
-    pub(crate) fn state(&self, k: u64, out: &mut PathState) {
+    pub(crate) fn state(&mut self, k: u64, out: &mut PathState) {
         let Entry { profile, blocks, .. } = self.entry;
         // before the start the path rests at its beginning
         let since = self.cycle.time_of(k.saturating_sub(self.entry.start.origin));
         let t = (since - self.start_s).max(0.0);
         let over = k >= self.last_k;
-        let state = profile.at(if over { profile.duration() } else { t });
+        let t = if over { profile.duration() } else { t };
+        let state = profile.at_near(t, &mut self.phases);
         let i = match &blocks[..] {
             [_] => 0,
-            blocks => blocks.partition_point(|b| b.1 <= state.s_mm).min(blocks.len() - 1),
+            blocks => {
+                let passed = count_up_to(blocks, self.blocks, |b| b.1 <= state.s_mm);
+                self.blocks = Some(passed);
+                passed.min(blocks.len() - 1)
+            }
         };
         let (queued, s_end) = &blocks[i];
         let path = &queued.block.path;

@@ -58,11 +58,12 @@ impl PartialEq for Profile {
 impl Profile {
     /// Consecutive phases, and the state at their end.
     pub(super) fn new(phases: impl IntoIterator<Item = Phase>, end: State) -> Self {
-        let mut duration = 0.0;
+        let (mut duration, phases) = (0.0, phases.into_iter());
         // collected in place, then copied once: an `Arc` of a chain of iterators would poll each of them for every
         // phase
-        let mut timed: SmallVec<[(f64, Phase); USUAL_PHASES]> = SmallVec::new();
-        phases.into_iter().for_each(|phase| {
+        let mut timed: SmallVec<[(f64, Phase); USUAL_PHASES]> =
+            SmallVec::with_capacity(phases.size_hint().0);
+        phases.for_each(|phase| {
             timed.push((duration, phase));
             duration += phase.t;
         });
@@ -89,14 +90,7 @@ impl Profile {
 
     /// Consecutive phases over a length.
     pub(crate) fn over(phases: Vec<Phase>, length: f64) -> Self {
-        let last = phases.last().map(Phase::end);
-        let end = last.map_or_else(State::default, |Phase { v, a, .. }| State {
-            s_mm: length,
-            // rounding at a stop
-            v_mm_s: v.max(0.0),
-            a_mm_s2: a,
-            j_mm_s3: 0.0,
-        });
+        let end = phases.last().map_or_else(State::default, |last| ending(&last.end(), length));
         Self::new(phases, end)
     }
 
@@ -125,7 +119,7 @@ impl Profile {
         let behind = [phase.rest(t)].into_iter().chain(phases[i + 1..].iter().map(|p| p.1));
         let moved = behind.map(|p| p.placed_at((p.s - s_mm).max(0.0)));
         let end = State { s_mm: self.end.s_mm - s_mm, ..self.end };
-        Some((Self::over(before.collect(), s_mm), Self::new(moved, end)))
+        Some((Self::new(before, ending(&cut, s_mm)), Self::new(moved, end)))
     }
 
     /// Duration in s.
@@ -180,6 +174,11 @@ impl Profile {
 
     /// State at time `t` in s since the start; times outside the profile give the state at its start or end.
     pub fn at(&self, t: f64) -> State {
+        self.at_near(t, &mut None)
+    }
+
+    /// As [`Self::at`]; `near` is the number of phases that begin up to there, if it is known for a moment close by.
+    pub(crate) fn at_near(&self, t: f64, near: &mut Option<usize>) -> State {
         if t >= self.duration {
             return self.end;
         }
@@ -190,7 +189,9 @@ impl Profile {
                 State { s_mm: (0.0 + way).min(self.end.s_mm), ..self.end }
             }
             Phases::Shared(phases) => {
-                let next = phases.partition_point(|p| p.0 <= t).max(1);
+                let next = count_up_to(phases, *near, |p| p.0 <= t);
+                *near = Some(next);
+                let next = next.max(1);
                 let Some((start, phase)) = phases.get(next - 1) else { return self.end };
                 let ahead = phases.get(next).map_or(self.end.s_mm, |p| p.1.s);
                 phase.state_after(t - start, ahead)
@@ -207,4 +208,28 @@ impl Profile {
         let i = phases.partition_point(|p| p.1.s <= s_mm).saturating_sub(1);
         phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s_mm))
     }
+}
+
+/// The end, at a state, of a profile over a length.
+fn ending(at: &Phase, length: f64) -> State {
+    // rounding at a stop
+    let v_mm_s = at.v.max(0.0);
+    State { s_mm: length, v_mm_s, a_mm_s2: at.a, j_mm_s3: 0.0 }
+}
+
+/// The number of first items that a condition holds for, which holds for none behind; `near` is a close number, if one is known.
+#[inline]
+pub(crate) fn count_up_to<T>(
+    items: &[T],
+    near: Option<usize>,
+    holds: impl Fn(&T) -> bool,
+) -> usize {
+    let Some(mut count) = near else { return items.partition_point(holds) };
+    while items.get(count).is_some_and(&holds) {
+        count += 1;
+    }
+    while count > 0 && !holds(&items[count - 1]) {
+        count -= 1;
+    }
+    count
 }
