@@ -11,6 +11,7 @@ use super::Block;
 use crate::profile::FLAT_MM_S2;
 use crate::profile::roots::enclosed_root;
 use crate::profile::{Phase, RampShape};
+use std::cell::Cell;
 
 /// Relative difference of speeds that counts as rounding.
 const SAME: f64 = 1e-8;
@@ -33,6 +34,40 @@ pub(super) struct Meet<'a> {
     pub(super) fall: &'a [Phase],
     /// Speed at the end.
     pub(super) v1: f64,
+    pub(super) known: &'a Known,
+}
+
+/// The part of a fall that is known.
+#[derive(Debug)]
+pub(super) struct Known {
+    /// Path length in mm behind which it lies.
+    from: f64,
+    /// Whether a connection was to begin before.
+    is_left: Cell<bool>,
+}
+
+impl Known {
+    /// All of it.
+    pub(super) fn whole() -> Self {
+        Self::behind(f64::NEG_INFINITY)
+    }
+
+    /// What lies behind a path length in mm.
+    pub(super) fn behind(from: f64) -> Self {
+        Self { from, is_left: Cell::new(false) }
+    }
+
+    /// Whether a connection was to begin before the known part, so that what was found without it is void.
+    pub(super) fn is_left(&self) -> bool {
+        self.is_left.get()
+    }
+
+    /// Whether the known part contains the place where a connection begins.
+    fn contains(&self, s: f64) -> bool {
+        let inside = s > self.from;
+        self.is_left.set(self.is_left() || !inside);
+        inside
+    }
 }
 
 /// Where a connection ends: phase of the fall and time in it.
@@ -167,6 +202,9 @@ impl Meet<'_> {
     fn way(&self, from: &Phase, mut take: impl FnMut(Phase)) -> Option<Way> {
         #[cfg(test)]
         crate::closed_forms::add();
+        if !self.known.contains(from.s) {
+            return None;
+        }
         let mut is_empty = true;
         let mut at = Phase::state(from.s, from.v, from.a);
         let same = same_mm(self.cells);
