@@ -106,7 +106,7 @@ impl Ahead {
         while self.rows.len() < most
             && let Some(found) = timeline.find(&mut entry, k, cycle)
         {
-            let mut walk = found.walk(cycle);
+            let walk = found.walk(cycle);
             // after a stop the next entry may begin more than one cycle later
             loop {
                 walk.state(k, &mut self.state);

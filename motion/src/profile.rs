@@ -47,7 +47,6 @@ pub use ramp::RampShape;
 pub use ramped::RampedLimits;
 pub(crate) use ramped::Rates;
 pub use row::Profile;
-pub(crate) use row::count_up_to;
 pub use slope::SlopeLimits;
 pub use step::{StepAxis, StepLimits};
 pub use third_order::{MotionState, ThirdOrderError, ThirdOrderLimits, ThirdOrderPhases};

@@ -10,7 +10,7 @@ use crate::asked::Asked;
 use crate::axis::AxisVec;
 use crate::cap::{Cap, SpeedLimit};
 use crate::lookahead::Span;
-use crate::profile::{Profile, State, count_up_to};
+use crate::profile::{Profile, State};
 use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
 use reason::Low;
@@ -265,7 +265,7 @@ impl Entry {
     pub(crate) fn walk(&self, cycle: CycleTime) -> Walk<'_> {
         let (start_s, end_s) = (self.start.seconds(), self.end.seconds());
         let last_k = if self.stops { self.end.next_tick(cycle) } else { u64::MAX };
-        Walk { entry: self, cycle, start_s, end_s, last_k, phases: None, blocks: None }
+        Walk { entry: self, cycle, start_s, end_s, last_k }
     }
 
     /// Moments in cycles and path lengths of the program at which the blocks of the span are entered.
@@ -352,7 +352,7 @@ impl Timeline {
 }
 
 /// An entry with the values that are the same in all of its cycles.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Walk<'a> {
     entry: &'a Entry,
     cycle: CycleTime,
@@ -360,9 +360,6 @@ pub(crate) struct Walk<'a> {
     end_s: f64,
     /// Cycle of the end of a motion.
     last_k: u64,
-    /// Numbers of phases up to the last cycle that was read, and of blocks that were over in it.
-    phases: Option<usize>,
-    blocks: Option<usize>,
 }
 
 impl Walk<'_> {
@@ -378,21 +375,16 @@ impl Walk<'_> {
 
     /// State in cycle `k`; exact at the end of a motion.
     #[inline]
-    pub(crate) fn state(&mut self, k: u64, out: &mut PathState) {
+    pub(crate) fn state(&self, k: u64, out: &mut PathState) {
         let Entry { profile, blocks, .. } = self.entry;
         // before the start the path rests at its beginning
         let since = self.cycle.time_of(k.saturating_sub(self.entry.start.origin));
         let t = (since - self.start_s).max(0.0);
         let over = k >= self.last_k;
-        let t = if over { profile.duration() } else { t };
-        let state = profile.at_near(t, &mut self.phases);
+        let state = profile.at(if over { profile.duration() } else { t });
         let i = match &blocks[..] {
             [_] => 0,
-            blocks => {
-                let passed = count_up_to(blocks, self.blocks, |b| b.1 <= state.s_mm);
-                self.blocks = Some(passed);
-                passed.min(blocks.len() - 1)
-            }
+            blocks => blocks.partition_point(|b| b.1 <= state.s_mm).min(blocks.len() - 1),
         };
         let (queued, s_end) = &blocks[i];
         let path = &queued.block.path;

@@ -174,11 +174,6 @@ impl Profile {
 
     /// State at time `t` in s since the start; times outside the profile give the state at its start or end.
     pub fn at(&self, t: f64) -> State {
-        self.at_near(t, &mut None)
-    }
-
-    /// As [`Self::at`]; `near` is the number of phases that begin up to there, if it is known for a moment close by.
-    pub(crate) fn at_near(&self, t: f64, near: &mut Option<usize>) -> State {
         if t >= self.duration {
             return self.end;
         }
@@ -189,9 +184,7 @@ impl Profile {
                 State { s_mm: (0.0 + way).min(self.end.s_mm), ..self.end }
             }
             Phases::Shared(phases) => {
-                let next = count_up_to(phases, *near, |p| p.0 <= t);
-                *near = Some(next);
-                let next = next.max(1);
+                let next = phases.partition_point(|p| p.0 <= t).max(1);
                 let Some((start, phase)) = phases.get(next - 1) else { return self.end };
                 let ahead = phases.get(next).map_or(self.end.s_mm, |p| p.1.s);
                 phase.state_after(t - start, ahead)
@@ -215,21 +208,4 @@ fn ending(at: &Phase, length: f64) -> State {
     // rounding at a stop
     let v_mm_s = at.v.max(0.0);
     State { s_mm: length, v_mm_s, a_mm_s2: at.a, j_mm_s3: 0.0 }
-}
-
-/// The number of first items that a condition holds for, which holds for none behind; `near` is a close number, if one is known.
-#[inline]
-pub(crate) fn count_up_to<T>(
-    items: &[T],
-    near: Option<usize>,
-    holds: impl Fn(&T) -> bool,
-) -> usize {
-    let Some(mut count) = near else { return items.partition_point(holds) };
-    while items.get(count).is_some_and(&holds) {
-        count += 1;
-    }
-    while count > 0 && !holds(&items[count - 1]) {
-        count -= 1;
-    }
-    count
 }
