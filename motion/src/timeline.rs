@@ -148,22 +148,31 @@ impl Entry {
     pub(crate) fn split(&self, n: usize) -> Option<[Self; 2]> {
         let s = self.blocks[n - 1].1;
         let (before, behind) = self.profile.split(s)?;
-        let mut parts = [self.clone(), self.clone()];
-        let [first, second] = &mut parts;
-        first.end = first.start.plus(before.duration());
-        (second.start, second.s0) = (first.end, first.s0 + s);
-        (first.profile, second.profile) = (before, behind);
-        first.blocks.truncate(n);
-        first.feeds.truncate(n);
-        first.stops = false;
-        second.blocks.drain(..n);
-        second.feeds.drain(..n.min(self.feeds.len()));
-        for block in &mut second.blocks {
-            block.1 -= s;
-        }
-        first.lows.clear();
-        second.lows.clear();
-        Some(parts)
+        let (own, later) = self.blocks.split_at(n);
+        let (own_feeds, later_feeds) = self.feeds.split_at(n.min(self.feeds.len()));
+        let later = later.iter().map(|(queued, end)| (Arc::clone(queued), end - s));
+        let cut = self.start.plus(before.duration());
+        let first = Self {
+            end: cut,
+            profile: before,
+            blocks: own.iter().cloned().collect(),
+            feeds: own_feeds.to_vec(),
+            caps: self.caps.clone(),
+            lows: Vec::new(),
+            stops: false,
+            ..*self
+        };
+        let second = Self {
+            start: cut,
+            s0: self.s0 + s,
+            profile: behind,
+            blocks: later.collect(),
+            feeds: later_feeds.to_vec(),
+            caps: self.caps.clone(),
+            lows: Vec::new(),
+            ..*self
+        };
+        Some([first, second])
     }
 
     /// Replaces a block by parts of it.

@@ -50,12 +50,12 @@ impl Deref for Weakest<'_> {
 }
 
 impl Weakest<'_> {
-    /// Combines the limits with those of another block.
-    pub(super) fn join(&mut self, other: &SlopeLimits) {
-        let weaker = self.weaker(other);
+    /// Combines the limits with those of other blocks.
+    fn join<'b>(&mut self, others: impl Iterator<Item = &'b SlopeLimits> + Clone) {
+        let weakest = self.weakest(others);
         match self {
-            Self::One(_) => *self = Self::OfSeveral(Box::new(weaker)),
-            Self::OfSeveral(slope) => **slope = weaker,
+            Self::One(_) => *self = Self::OfSeveral(Box::new(weakest)),
+            Self::OfSeveral(slope) => **slope = weakest,
         }
     }
 }
@@ -106,9 +106,11 @@ impl<'a> Window<'a> {
                 // across blocks of different feed rates the check finds the boundaries that are exceeded
                 s.feed.max(feed)
             };
-            s.slope.join(&self.blocks[i].queued.slope);
         }
-        s.end = end;
+        if s.end < end {
+            s.slope.join(self.blocks[s.end..end].iter().map(|block| &block.queued.slope));
+            s.end = end;
+        }
     }
 }
 
@@ -124,7 +126,7 @@ impl<'a> Stretch<'a> {
 impl Stretch<'_> {
     /// Both stretches as one, with the feed rate of the second: braking continues from the first into the second.
     pub(super) fn carried_into(mut self, second: &Self) -> Self {
-        self.slope.join(&second.slope);
+        self.slope.join(std::iter::once(&*second.slope));
         self.length += second.length;
         (self.end, self.feed) = (second.end, second.feed);
         self

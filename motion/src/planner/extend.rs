@@ -54,7 +54,8 @@ impl Planner {
         let last_window = last_blocks(&window, self.window);
         let rests = end != SpeedLimit::Lookahead;
         let mut last = None;
-        let asked = self.plan.demands.clone();
+        // without a tolerance nothing changes the demands
+        let asked = (!self.is_free()).then(|| self.plan.demands.clone());
         let (mut round, mut given_up) = (0, false);
         loop {
             let ends = (start, end);
@@ -68,7 +69,10 @@ impl Planner {
             };
             let mut entries = match searched {
                 Searched::Kept(entries) if round > 1 && !given_up => {
-                    let entries = self.answer_only(&asked, &window, &forced, ends, entries);
+                    let entries = match &asked {
+                        Some(asked) => self.answer_only(asked, &window, &forced, ends, entries),
+                        None => entries,
+                    };
                     let front = if rests { window.len() } else { last_window };
                     let entries = self.rest_instead(&window, &forced, ends, entries, front);
                     self.shorten(&window, &forced, ends, entries)

@@ -34,6 +34,11 @@ pub(super) struct LegLimits {
     per_gain_full: f64,
 }
 
+/// A ramp time in s, or 0 for a step.
+fn counted(ramp_s: f64) -> f64 {
+    if ramp_s >= SHORTEST_RAMP_S { ramp_s } else { 0.0 }
+}
+
 impl LegLimits {
     pub(super) fn new(
         shape: RampShape,
@@ -43,8 +48,7 @@ impl LegLimits {
         fall_s: f64,
     ) -> Self {
         debug_assert!(a > 0.0 && a.is_finite());
-        let ramp = |t: f64| if t >= SHORTEST_RAMP_S { t } else { 0.0 };
-        let (t1, t2) = (ramp(rise_s), ramp(fall_s));
+        let (t1, t2) = (counted(rise_s), counted(fall_s));
         let k1 = shape.rise_factor();
         let k2 = 0.5 - k1;
         // c = 1/24 (TRAPEZ), 1/8 - 1/π² (SIN2): both are k1 - 1/8
@@ -88,12 +92,16 @@ impl LegLimits {
         Self::new(self.shape, self.constant_ramp_time, ratio * self.a, self.t1, self.t2)
     }
 
-    /// The smaller plateau with ramps of the smaller jerk.
-    pub(super) fn weaker(&self, other: &Self) -> Self {
-        let a = self.a.min(other.a);
-        let ramp = |mine: f64, theirs: f64| a * (mine / self.a).max(theirs / other.a);
-        let (rise, fall) = (ramp(self.t1, other.t1), ramp(self.t2, other.t2));
-        Self::new(self.shape, self.constant_ramp_time, a, rise, fall)
+    /// The smallest plateau of these and others, with ramps of the smallest jerk.
+    pub(super) fn weakest<'a>(&self, others: impl Iterator<Item = &'a Self>) -> Self {
+        let [mut a, mut t1, mut t2] = [self.a, self.t1, self.t2];
+        for other in others {
+            let least = a.min(other.a);
+            let ramp = |own: f64, theirs: f64| counted(least * (own / a).max(theirs / other.a));
+            (t1, t2) = (ramp(t1, other.t1), ramp(t2, other.t2));
+            a = least;
+        }
+        Self::new(self.shape, self.constant_ramp_time, a, t1, t2)
     }
 
     /// Shape, plateau, first and second ramp time, if a short leg has the same jerk.

@@ -91,12 +91,17 @@ impl RampedLimits {
         Some(Rates { shape, acc, dec, ramps: [t1, t2, t3, t4] })
     }
 
-    pub(super) fn combine(
-        &self,
-        other: &Self,
-        f: impl Fn(&LegLimits, &LegLimits) -> LegLimits,
-    ) -> Self {
-        Self { up: f(&self.up, &other.up), down: f(&self.down, &other.down) }
+    /// Accelerations times `ratio`, positive, with the same ramp times.
+    pub(super) fn scaled(&self, ratio: f64) -> Self {
+        Self { up: self.up.scaled(ratio), down: self.down.scaled(ratio) }
+    }
+
+    /// The weakest of these and others, leg by leg.
+    pub(super) fn weakest<'a>(&self, others: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        Self {
+            up: self.up.weakest(others.clone().map(|other| &other.up)),
+            down: self.down.weakest(others.map(|other| &other.down)),
+        }
     }
 
     pub(super) fn all(&self, other: &Self, f: impl Fn(&LegLimits, &LegLimits) -> bool) -> bool {

@@ -58,11 +58,12 @@ impl PartialEq for Profile {
 impl Profile {
     /// Consecutive phases, and the state at their end.
     pub(super) fn new(phases: impl IntoIterator<Item = Phase>, end: State) -> Self {
-        let mut duration = 0.0;
+        let (mut duration, phases) = (0.0, phases.into_iter());
         // collected in place, then copied once: an `Arc` of a chain of iterators would poll each of them for every
         // phase
-        let mut timed: SmallVec<[(f64, Phase); USUAL_PHASES]> = SmallVec::new();
-        phases.into_iter().for_each(|phase| {
+        let mut timed: SmallVec<[(f64, Phase); USUAL_PHASES]> =
+            SmallVec::with_capacity(phases.size_hint().0);
+        phases.for_each(|phase| {
             timed.push((duration, phase));
             duration += phase.t;
         });
@@ -89,14 +90,7 @@ impl Profile {
 
     /// Consecutive phases over a length.
     pub(crate) fn over(phases: Vec<Phase>, length: f64) -> Self {
-        let last = phases.last().map(Phase::end);
-        let end = last.map_or_else(State::default, |Phase { v, a, .. }| State {
-            s_mm: length,
-            // rounding at a stop
-            v_mm_s: v.max(0.0),
-            a_mm_s2: a,
-            j_mm_s3: 0.0,
-        });
+        let end = phases.last().map_or_else(State::default, |last| ending(&last.end(), length));
         Self::new(phases, end)
     }
 
@@ -125,7 +119,7 @@ impl Profile {
         let behind = [phase.rest(t)].into_iter().chain(phases[i + 1..].iter().map(|p| p.1));
         let moved = behind.map(|p| p.placed_at((p.s - s_mm).max(0.0)));
         let end = State { s_mm: self.end.s_mm - s_mm, ..self.end };
-        Some((Self::over(before.collect(), s_mm), Self::new(moved, end)))
+        Some((Self::new(before, ending(&cut, s_mm)), Self::new(moved, end)))
     }
 
     /// Duration in s.
@@ -207,4 +201,11 @@ impl Profile {
         let i = phases.partition_point(|p| p.1.s <= s_mm).saturating_sub(1);
         phases.get(i).map_or(0.0, |(start, phase)| start + phase.time_at(s_mm))
     }
+}
+
+/// The end, at a state, of a profile over a length.
+fn ending(at: &Phase, length: f64) -> State {
+    // rounding at a stop
+    let v_mm_s = at.v.max(0.0);
+    State { s_mm: length, v_mm_s, a_mm_s2: at.a, j_mm_s3: 0.0 }
 }

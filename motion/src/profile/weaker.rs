@@ -1,6 +1,5 @@
 //! Limits of several blocks combined into the limits of one span.
 
-use super::leg::LegLimits;
 use super::slope::SlopeLimits;
 use super::step::StepLimits;
 
@@ -8,11 +7,26 @@ impl SlopeLimits {
     /// Limits within those of both: the smaller acceleration and, for each ramp, the smaller jerk.
     #[must_use]
     pub fn weaker(&self, other: &Self) -> Self {
-        match (self, other) {
-            (Self::Ramped(a), Self::Ramped(b)) => Self::Ramped(a.combine(b, LegLimits::weaker)),
-            (Self::Step(a), Self::Step(b)) => Self::Step(StepLimits::weaker(a, b)),
-            // slopes of different kinds never form one span
-            _ => self.clone(),
+        self.weakest(std::iter::once(other))
+    }
+
+    /// Limits within these and all others, see [`Self::weaker`].
+    pub(crate) fn weakest<'a>(&self, others: impl Iterator<Item = &'a Self> + Clone) -> Self {
+        // slopes of different kinds never form one span
+        match self {
+            Self::Ramped(own) => {
+                Self::Ramped(own.weakest(others.filter_map(|other| match other {
+                    Self::Ramped(other) => Some(other),
+                    Self::Step(_) => None,
+                })))
+            }
+            Self::Step(own) => {
+                let steps = others.filter_map(|other| match other {
+                    Self::Step(other) => Some(other),
+                    Self::Ramped(_) => None,
+                });
+                Self::Step(steps.fold(own.clone(), |own, other| StepLimits::weaker(&own, other)))
+            }
         }
     }
 
@@ -28,7 +42,7 @@ impl SlopeLimits {
     #[must_use]
     pub fn scaled(&self, ratio: f64) -> Self {
         match self {
-            Self::Ramped(a) => Self::Ramped(a.combine(a, |leg, _| leg.scaled(ratio))),
+            Self::Ramped(a) => Self::Ramped(a.scaled(ratio)),
             Self::Step(a) => Self::Step(a.scaled(ratio)),
         }
     }

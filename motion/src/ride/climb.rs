@@ -2,8 +2,10 @@
 //!
 //! From a state the acceleration grows, or stays at its limit, as long as the ramp down to zero after it stays below
 //! every limit ahead. The last such moment is found by bisection, in whose steps the ramp is only followed where the
-//! outcome is not known ([`Climb::around`]); from there the ramp down is followed to the limit that it touches, where the
+//! outcome is not known ([`moment`]); from there the ramp down is followed to the limit that it touches, where the
 //! next rise starts.
+
+mod moment;
 
 use super::{Block, SLACK, is_drop, is_level};
 use crate::profile::{Phase, RampShape};
@@ -14,12 +16,6 @@ const MOST_PHASES: [usize; 2] = [12, 20_000];
 const ROUNDS: u32 = 40;
 /// Duration in s below which a phase is dropped as rounding.
 const WORTH_S: f64 = 1e-7;
-
-/// Steps to the moment at which a ramp reaches the velocity of a block, and the step in s below which it is found.
-const STEPS: u32 = 8;
-const FOUND_S: f64 = 1e-13;
-/// Distance in s from that moment at which the outcome is tested.
-const ASIDE_S: f64 = 1e-12;
 
 /// Number of phases of the rise that are searched backwards for a point from which a limit can be passed.
 const MOST_BACK: usize = 64;
@@ -42,20 +38,47 @@ pub(super) struct Climb<'a> {
     here: Phase,
     /// Number of phases output up to the last point at which the speed was cut.
     base: usize,
+    /// The least limit of the end of each block and of those after it.
+    least: Vec<f64>,
 }
 
 /// Phases from `v0` with acceleration `a0` to the end, cut where a limit drops. `None` if the speed gets too low.
 pub(super) fn climb(cells: &[Block], v0: f64, a0: f64) -> Option<Vec<Phase>> {
-    let out = Vec::with_capacity(4 * cells.len());
-    let mut climb = Climb { cells, out, c: 0, here: Phase::state(0.0, v0, a0), base: 0 };
+    climb_beyond(cells, (v0, a0), |_, _, _| false)
+}
+
+/// As [`climb`], up to a phase that is `beyond` what is needed: it receives the last phase, and the block and the speed after it. The
+/// phases up to there are those of the whole rise.
+pub(super) fn climb_beyond(
+    cells: &[Block],
+    (v0, a0): (f64, f64),
+    mut beyond: impl FnMut(&Phase, usize, f64) -> bool,
+) -> Option<Vec<Phase>> {
+    let (out, here) = (Vec::with_capacity(4 * cells.len()), Phase::state(0.0, v0, a0));
+    let mut climb = Climb { cells, out, c: 0, here, base: 0, least: least_ahead(cells) };
     climb.settle()?;
     while climb.c < cells.len() {
         if climb.out.len() > MOST_PHASES[0] * cells.len() + MOST_PHASES[1] {
             return None;
         }
+        // a limit ahead lowers the rise from here on at most: this speed passes it without acceleration
+        let is_final = climb.here.a == 0.0 && climb.here.v <= climb.least[climb.c];
+        let last = climb.out.last().filter(|_| is_final);
+        if last.is_some_and(|phase| beyond(phase, climb.c, climb.here.v)) {
+            break;
+        }
         climb.step()?;
     }
     Some(climb.out)
+}
+
+/// The least limit of the end of each block and of those after it.
+fn least_ahead(cells: &[Block]) -> Vec<f64> {
+    let mut least = vec![f64::INFINITY; cells.len()];
+    for c in (1..cells.len()).rev() {
+        least[c - 1] = least[c].min(cells[c - 1].cap).min(cells[c].v);
+    }
+    least
 }
 
 impl Climb<'_> {
@@ -273,64 +296,6 @@ impl Climb<'_> {
             self.take(flat, true);
         }
         Some(())
-    }
-
-    /// Two close moments of a phase, after whose end `touch` is exceeded: with a ramp down to zero from the first one all
-    /// limits are kept, from the second one the velocity inside a block is exceeded. Without such moments the whole of
-    /// the time axis.
-    fn around(&self, phase: &Phase, touch: Touch, v_ref: f64) -> (f64, f64) {
-        let unknown = (0.0, f64::INFINITY);
-        if touch != Touch::Inside {
-            return unknown;
-        }
-        let Some(t) = self.reaches(phase) else { return unknown };
-        let (within, beyond) = (t - ASIDE_S, t + ASIDE_S);
-        let lands = |t| self.lands(self.c, phase.after(t), v_ref);
-        let is_between = within > 0.0
-            && beyond < phase.t
-            && lands(within).is_ok()
-            && lands(beyond) == Err(Touch::Inside);
-        if is_between { (within, beyond) } else { unknown }
-    }
-
-    /// The moment of a phase from which a ramp down to zero ends at the velocity of the block in which it ends.
-    fn reaches(&self, phase: &Phase) -> Option<f64> {
-        let mut t = phase.t;
-        for _ in 0..STEPS {
-            let from = phase.after(t);
-            let (cell, v) = self.landing(&from)?;
-            // gain of speed over this moment and the ramp, as if the whole ramp had the jerk of this block
-            let excess = v - cell.v * (1.0 + SLACK);
-            let next = if phase.j > 0.0 {
-                let per_square = 0.5 / phase.j + 0.5 / cell.jerks[1];
-                let a = (from.a * from.a - excess / per_square).max(0.0).sqrt();
-                (a - phase.a) / phase.j
-            } else {
-                t - excess / from.a
-            };
-            let step = (next - t).abs();
-            t = next.clamp(0.0, phase.t);
-            if step <= FOUND_S {
-                return Some(t);
-            }
-        }
-        None
-    }
-
-    /// Block and speed in which a ramp down to zero from a state ends.
-    fn landing(&self, from: &Phase) -> Option<(&Block, f64)> {
-        #[cfg(test)]
-        crate::closed_forms::add();
-        let mut at = *from;
-        for c in self.c.. {
-            let cell = self.cells.get(c)?;
-            let (_, flat) = self.ramp_in(c, &at);
-            if flat.s < cell.end {
-                return Some((cell, flat.v));
-            }
-            at = flat;
-        }
-        None
     }
 
     /// The limit touched by a ramp down to zero that begins at the end of block `c`.

@@ -37,6 +37,12 @@ fn level_values(values: &mut [f64], ends: Option<(f64, f64)>) {
     let count = values.len();
     let mut from = 0;
     while let Some(first) = values.get(from).copied() {
+        // most values have nothing alike beside them
+        let inside = ends.is_none() || from > 0 && from + 2 < count;
+        if inside && values.get(from + 1).is_none_or(|next| !is_alike(first, *next)) {
+            from += 1;
+            continue;
+        }
         let length = values[from..].iter().take_while(|v| is_alike(first, **v)).count().max(1);
         let run = &mut values[from..from + length];
         let mut least = run.iter().copied().fold(f64::INFINITY, f64::min);

@@ -11,7 +11,7 @@ use super::Block;
 use crate::profile::FLAT_MM_S2;
 use crate::profile::roots::enclosed_root;
 use crate::profile::{Phase, RampShape};
-use smallvec::SmallVec;
+use std::cell::Cell;
 
 /// Relative difference of speeds that counts as rounding.
 const SAME: f64 = 1e-8;
@@ -24,8 +24,6 @@ const MISS: f64 = 1e-7;
 const LEAST_MM_S: f64 = 1e-4;
 /// Bisection steps for the moment at which the rise is left.
 const ROUNDS: u32 = 50;
-/// Number of phases of a connection up to which it needs no allocation.
-const FEW: usize = 4;
 /// Accuracy of the moment at which both are closest, relative to the piece.
 const MOMENT: f64 = 1e-12;
 
@@ -36,6 +34,40 @@ pub(super) struct Meet<'a> {
     pub(super) fall: &'a [Phase],
     /// Speed at the end.
     pub(super) v1: f64,
+    pub(super) known: &'a Known,
+}
+
+/// The part of a fall that is known.
+#[derive(Debug)]
+pub(super) struct Known {
+    /// Path length in mm behind which it lies.
+    from: f64,
+    /// Whether a connection was to begin before.
+    is_left: Cell<bool>,
+}
+
+impl Known {
+    /// All of it.
+    pub(super) fn whole() -> Self {
+        Self::behind(f64::NEG_INFINITY)
+    }
+
+    /// What lies behind a path length in mm.
+    pub(super) fn behind(from: f64) -> Self {
+        Self { from, is_left: Cell::new(false) }
+    }
+
+    /// Whether a connection was to begin before the known part, so that what was found without it is void.
+    pub(super) fn is_left(&self) -> bool {
+        self.is_left.get()
+    }
+
+    /// Whether the known part contains the place where a connection begins.
+    fn contains(&self, s: f64) -> bool {
+        let inside = s > self.from;
+        self.is_left.set(self.is_left() || !inside);
+        inside
+    }
 }
 
 /// Where a connection ends: phase of the fall and time in it.
@@ -57,10 +89,13 @@ struct Beside {
     joint: Joint,
 }
 
-/// A connection and where it ends on the fall; `None`: it stays below the fall without meeting it.
+/// A connection that stays below the fall.
+#[derive(Clone, Copy, Debug)]
 struct Way {
-    phases: SmallVec<[Phase; FEW]>,
+    /// Where it meets the fall; `None`: nowhere.
     joint: Option<Joint>,
+    /// Whether it has no phase with a duration.
+    is_empty: bool,
 }
 
 impl Meet<'_> {
@@ -68,8 +103,8 @@ impl Meet<'_> {
     pub(super) fn speed(&self) -> Option<Vec<Phase>> {
         let mut out: Vec<Phase> = Vec::with_capacity(self.rise.len());
         // phases of rise and fall reached, and number of phases output up to the last common cut
-        let (mut r, mut f, mut base) = (0, 0, 0);
-        let same = self.same_mm();
+        let (mut r, mut base) = (0, 0);
+        let mut follow = Follow::new(self.cells, self.fall);
         loop {
             let Some(next) = self.rise.get(r) else {
                 // the rise alone
@@ -77,14 +112,9 @@ impl Meet<'_> {
                 return (end.v >= self.v1 * (1.0 - MISS)).then_some(out);
             };
             let end = next.end();
-            while f + 1 < self.fall.len() && self.fall[f].end().s < end.s - same {
-                f += 1;
-            }
-            let on_fall = &self.fall[f];
-            let below = on_fall.after(on_fall.time_at(end.s));
             // at the end the acceleration has to be zero
             let overshoots = r + 1 == self.rise.len() && end.a > FLAT_MM_S2;
-            if end.v <= below.v * (1.0 + SAME) && !overshoots {
+            if !follow.is_below(&end) && !overshoots {
                 out.push(*next);
                 r += 1;
                 continue;
@@ -96,18 +126,15 @@ impl Meet<'_> {
             if joint.time < entered.t {
                 out.push(entered.rest(joint.time));
             }
-            let is_cut = |k: &usize| {
-                let (before, behind) = (self.fall[k - 1].end(), &self.fall[*k]);
-                behind.v > before.v * (1.0 + MISS) + 1e-12
-            };
-            let cut = (joint.phase + 1..self.fall.len()).find(is_cut).unwrap_or(self.fall.len());
+            let mut behind = joint.phase + 1..self.fall.len();
+            let cut = behind.find(|k| is_cut(self.fall, *k)).unwrap_or(self.fall.len());
             out.extend_from_slice(&self.fall[joint.phase + 1..cut]);
             if cut == self.fall.len() {
                 return Some(out);
             }
             let at = self.fall[cut].s;
-            r = self.rise.partition_point(|p| p.s < at - same);
-            (base, f) = (out.len(), cut);
+            r = self.rise.partition_point(|p| p.s < at - follow.same);
+            (base, follow.phase) = (out.len(), cut);
             // both have to be cut there
             let (end, next) = (out.last()?.end(), self.rise.get(r)?);
             if (next.v - end.v).abs() > MISS * end.v + 1e-9 || next.a > FLAT_MM_S2 {
@@ -116,18 +143,14 @@ impl Meet<'_> {
         }
     }
 
-    /// Distance in mm up to which two points count as the same.
-    fn same_mm(&self) -> f64 {
-        1e-13 * self.cells.last().map_or(0.0, |c| c.end)
-    }
-
     /// Replaces the end of the output, after `base`, by a connection to the fall.
     fn connect(&self, out: &mut Vec<Phase>, base: usize) -> Option<Joint> {
         // the last phase from whose start a connection stays below the fall
         let (mut k, mut stride) = (out.len() - 1, 1);
         let mut late = out.len();
+        let search = |from: &Phase| self.way(from, |_| ());
         let mut best = loop {
-            if let Some(way) = self.way(&out[k]) {
+            if let Some(way) = search(&out[k]) {
                 break way;
             }
             if k == base {
@@ -139,15 +162,14 @@ impl Meet<'_> {
         };
         while late - k > 1 {
             let mid = usize::midpoint(late, k);
-            match self.way(&out[mid]) {
+            match search(&out[mid]) {
                 Some(way) => (k, best) = (mid, way),
                 None => late = mid,
             }
         }
         let left = out[k];
         let (mut low, mut high) = (0.0, left.t);
-        let meets_at_once = best.phases.iter().all(|p| p.t == 0.0);
-        if let Some(joint) = best.joint.filter(|j| meets_at_once && j.gap.abs() <= EQUAL)
+        if let Some(joint) = best.joint.filter(|j| best.is_empty && j.gap.abs() <= EQUAL)
             && holds(&left)
             && holds(&self.fall[joint.phase])
         {
@@ -156,7 +178,7 @@ impl Meet<'_> {
         }
         for _ in 0..ROUNDS {
             let mid = 0.5 * (low + high);
-            match self.way(&left.after(mid)) {
+            match search(&left.after(mid)) {
                 Some(way) => (low, best) = (mid, way),
                 None => high = mid,
             }
@@ -166,27 +188,33 @@ impl Meet<'_> {
         }
         let joint = best.joint.filter(|j| j.gap <= MISS)?;
         out.truncate(k);
-        if low > 0.0 {
+        let from = if low > 0.0 {
             out.push(left.until(low));
-        }
-        out.extend(best.phases);
+            left.after(low)
+        } else {
+            left
+        };
+        self.way(&from, |phase| out.push(phase))?;
         Some(joint)
     }
 
-    /// The connection from a state; `None` if it crosses the fall.
-    fn way(&self, from: &Phase) -> Option<Way> {
+    /// The connection from a state, whose phases `take` receives; `None` if it crosses the fall.
+    fn way(&self, from: &Phase, mut take: impl FnMut(Phase)) -> Option<Way> {
         #[cfg(test)]
         crate::closed_forms::add();
-        let mut phases = SmallVec::new();
+        if !self.known.contains(from.s) {
+            return None;
+        }
+        let mut is_empty = true;
         let mut at = Phase::state(from.s, from.v, from.a);
-        let same = self.same_mm();
+        let same = same_mm(self.cells);
         let mut c = self.cells.partition_point(|b| b.end <= at.s + same);
         let mut f = self.fall.partition_point(|p| p.s <= at.s + same).max(1) - 1;
         // whether the fall brakes more, as known from the previous piece
         let mut nears = None;
         loop {
             let (Some(cell), Some(fall)) = (self.cells.get(c), self.fall.get(f)) else {
-                return Some(Way { phases, joint: None });
+                return Some(Way { joint: None, is_empty });
             };
             let jerk = if at.a > 0.0 { cell.jerks[1] } else { cell.jerks[2] };
             // until the acceleration is zero, or to rest
@@ -207,17 +235,18 @@ impl Meet<'_> {
                 if joint.gap < -SAME {
                     return None;
                 }
-                phases.push(piece.until(time));
-                return Some(Way { phases, joint: Some(joint) });
+                take(piece.until(time));
+                return Some(Way { joint: Some(joint), is_empty: is_empty && time == 0.0 });
             }
             if end.joint.gap < -SAME {
                 return None;
             }
             let there = end.there;
             if there.v <= 0.0 {
-                return Some(Way { phases, joint: None });
+                return Some(Way { joint: None, is_empty });
             }
-            phases.push(piece);
+            take(piece);
+            is_empty &= piece.t == 0.0;
             if there.s >= cell.end - same {
                 c += 1;
             }
@@ -260,6 +289,51 @@ impl Meet<'_> {
         let (_, t) = enclosed_root((0.0, start.closing), (piece.t, end.closing), MOMENT, closing);
         Some((t, self.compare(piece, t, f).joint))
     }
+}
+
+/// A fall, followed forwards.
+pub(super) struct Follow<'a> {
+    fall: &'a [Phase],
+    /// The phase reached.
+    phase: usize,
+    /// Distance in mm up to which two points count as the same.
+    same: f64,
+    /// Where it is cut last.
+    last_cut: f64,
+}
+
+impl<'a> Follow<'a> {
+    pub(super) fn new(cells: &[Block], fall: &'a [Phase]) -> Self {
+        let last_cut = (1..fall.len()).rev().find(|k| is_cut(fall, *k));
+        let last_cut = last_cut.map_or(f64::NEG_INFINITY, |k| fall[k].s);
+        Self { fall, phase: 0, same: same_mm(cells), last_cut }
+    }
+
+    /// Whether the fall is below a state, which must not be before the last one.
+    fn is_below(&mut self, at: &Phase) -> bool {
+        while self.phase + 1 < self.fall.len() && self.fall[self.phase].end().s < at.s - self.same {
+            self.phase += 1;
+        }
+        let on_fall = &self.fall[self.phase];
+        let v = if holds(on_fall) { on_fall.v } else { on_fall.after(on_fall.time_at(at.s)).v };
+        at.v > v * (1.0 + SAME)
+    }
+
+    /// Whether the fall is below the end of this phase of the rise, and not cut any more, so that nobody needs the rise
+    /// behind it.
+    pub(super) fn has_crossed_for_good(&mut self, phase: &Phase) -> bool {
+        self.last_cut < phase.s - 2.0 * self.same && self.is_below(&phase.end())
+    }
+}
+
+/// Whether the speed of a fall jumps at the start of phase `k`, to a limit that is higher from there on.
+fn is_cut(fall: &[Phase], k: usize) -> bool {
+    fall[k].v > fall[k - 1].end().v * (1.0 + MISS) + 1e-12
+}
+
+/// Distance in mm up to which two points of a stretch count as the same.
+fn same_mm(cells: &[Block]) -> f64 {
+    1e-13 * cells.last().map_or(0.0, |c| c.end)
 }
 
 /// Whether a phase holds its speed.
