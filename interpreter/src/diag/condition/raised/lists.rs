@@ -54,15 +54,15 @@ macro_rules! lists {
     SplineEndTangent = Vendor 120100: Error ProgramAbort 6 0, "end tangent of an Akima spline has no direction", cause "#AKIMA ENDVECTOR X0 Y0", hint "write a component other than 0";
     FlushInSpline = Vendor 120102: Error ProgramAbort 3 0, "channel flush while a spline is active", cause "#FLUSH WAIT after #HSC ON [BSPLINE]", hint "write #HSC OFF before it";
     SplineWithoutMotion = Vendor 120112: Error ProgramAbort 6 0, "no motion before a spline with a tangential start", cause "#AKIMA TRANS [START=TANGENTIAL] before the first motion", hint "write a motion before G151, or START=AUTO";
-    PathDevTooSmall = Vendor 120129: Error ProgramAbort 3 0, "PATH_DEV below the minimum", hint "write 0.0001 mm or more";
-    CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more";
+    PathDevTooSmall = Vendor 120129: Error ProgramAbort 3 0, "PATH_DEV below the minimum", hint "write 0.0001 mm or more", note "where a value or a corner is found only while the path is driven, the corner stays as programmed, with a warning";
+    CornerDistanceTooSmall = Vendor 120131: Error ProgramAbort 3 0, "corner distance below the minimum", hint "write 0.0001 mm or more", note "where a value or a corner is found only while the path is driven, the corner stays as programmed, with a warning";
     CuttingSpeedNegative = Vendor 120167: Error ProgramAbort 6 1, "cutting speed not greater than 0", cause "G96 S-5", hint "S is the cutting speed in m/min under G96";
     CuttingSpeedMax = Vendor 120169: Error ProgramAbort 3 1, "maximum spindle speed of G196 not greater than 0", hint "write the maximum speed in S: G196 S2500";
     PitchAxisMissing = Vendor 120173: Error ProgramAbort 6 1, "pitch of a thread along a main axis that the channel does not have", cause "#PUT AX [Z], then G33 X10 K1", hint "I, J and K are pitches along the first, second and third main axis";
     SlopeWeighting = Vendor 120178: Error ProgramAbort 6 0, "unknown ramp-time weighting mode", cause "P-CHAN-00073", hint "write 0 (all) or 1 to 4 (one of the ramp times)", parameter "P-CHAN-00073";
     SplineWithoutMainAxis = Vendor 120180: Error ProgramAbort 6 0, "spline point without motion of a main axis", cause "G151 with tracking axes alone", hint "move tracking axes together with main axes";
     ContouringAtEnd = Vendor 120206: Warning None 1 0, "program ends with contouring active", hint "write G260 or #CONTOUR MODE OFF before the end";
-    ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off with G260 at this corner";
+    ContouringNotPossible = Vendor 120207: Error ProgramAbort 3 0, "contouring not possible (measurement, feed group, corner)", hint "switch contouring off with G260 at this corner", note "where a value or a corner is found only while the path is driven, the corner stays as programmed, with a warning";
     BlockTooShort = Vendor 120216: Warning None 1 0, "block too short for contouring", hint "lower PATH_DEV or the corner distances, or merge the short blocks";
     SplineWithContouring = Vendor 120255: Error ProgramAbort 3 0, "spline combined with contouring or #HSC", cause "G151 under G261", hint "write G260 or #HSC OFF before G151";
     CouplingWithContouring = Vendor 120333: Error ProgramAbort 3 0, "axis coupling switched while contouring is active", cause "#ENABLE AX LINK under G261", hint "write G260 before it";
@@ -74,7 +74,7 @@ macro_rules! lists {
     OutsideWorkspace = Vendor 120484: Error ProgramAbort 6 1, "point outside a workspace", cause "start or end of a motion, or of the tool at #CONTROL AREA ON", hint "write #CONTROL AREA OFF [ID=..] before it, or another target";
     AreaActive = Vendor 120499: Warning None 1 1, "active control area cannot be deleted", cause "#CONTROL AREA ON [ID=2], then #CONTROL AREA CLEAR [ID=2]", hint "write #CONTROL AREA OFF [ID=2] before it";
     ContouringFeedGroup = Vendor 120566: Error ProgramAbort 6 1, "contouring while the feed axes are not the main axes", cause "G261 with #FGROUP [X,Y]", hint "contouring needs the default feed axes: write #FGROUP, or G260", parameter "P-CHAN-00011";
-    ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes changed after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes";
+    ContouringGroupChanged = Vendor 120567: Error ProgramAbort 6 1, "feed axes changed after a contoured block", cause "G61, then #FGROUP", hint "switch contouring off before the feed group changes", note "where a value or a corner is found only while the path is driven, the corner stays as programmed, with a warning";
     MeasuringWithContouring = Vendor 120652: Error ProgramAbort 6 0, "measuring run while contouring is active", cause "G261 before G100", hint "write G260 before the measuring run";
     AreaOfArcs = Vendor 120691: Error ProgramAbort 6 1, "motion not allowed in the contour of a control area", cause "G02 in a control area POLY", hint "use straight lines only for POLY, one full circle for CIRC";
     IndependentInSpline = Vendor 120697: Error ProgramAbort 6 1, "independent axis within a spline", cause "#HSC ON [BSPLINE] or G151, then X[INDP_ASYN ..]", hint "end the spline first, or move the axis with the path";
