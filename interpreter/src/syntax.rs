@@ -249,6 +249,7 @@ impl Parser {
             Ok(pairs) => {
                 let mut block = builder.block(pairs);
                 if let Body::Command(command) = &mut block.body
+                    && !command.is_conditional()
                     && let Some(word) = command.word_behind()
                 {
                     let shown = masked.text.get(word.start as usize..word.end() as usize);

@@ -89,11 +89,14 @@
 mod answered;
 mod blame;
 mod bound;
+mod causes;
 mod demands;
 mod dwell;
 mod even;
 mod examine;
 mod findings;
+mod foot;
+mod foresee;
 mod glance;
 mod harvest;
 mod kernels;

@@ -159,10 +159,15 @@ fn diff_names_line_and_recognises_a_shift() {
     let (exit, out, _) = f.call(&["diff", "@late.csv", "@corner.csv"]);
     assert_eq!(exit, Exit::Aborted);
     assert!(out.contains("equal if B is taken 2 rows later"), "{out}");
+    // another cycle time is compared at the times of both, or not at all
     f.call(&["run", "@corner.nc", "-o", "@two.csv", "--cycle-us", "2000"]);
     let (exit, out, _) = f.call(&["diff", "@corner.csv", "@two.csv"]);
     assert_eq!(exit, Exit::Aborted);
-    assert!(out.contains("  times  row 1 is at 0.001000 s in A and at 0.002000 s in B: "), "{out}");
+    assert!(out.contains("compared at equal times: one of every 2 rows of A"), "{out}");
+    f.call(&["run", "@corner.nc", "-o", "@other.csv", "--cycle-us", "1500"]);
+    let (exit, out, _) = f.call(&["diff", "@corner.csv", "@other.csv"]);
+    assert_eq!(exit, Exit::Aborted);
+    assert!(out.contains("  times  row 1 is at 0.001000 s in A and at 0.001500 s in B: "), "{out}");
 }
 
 /// An approved trace of a program that does not reach its end must not stay approved.

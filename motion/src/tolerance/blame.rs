@@ -15,17 +15,15 @@
 //! at any speed, the starts and stops next to it are the cause (`du a M2 / 2`, whatever the speed): then the path
 //! dwells at its ends.
 
+use super::causes::{Case, Part};
 use super::demands::{Demands, PATIENCE, hurry};
 use super::even::{ALIKE, Evenly, aim, fastest};
 use super::findings::Findings;
 use super::marks::Mark;
 use super::view::View;
 use super::violation::{Record, Violation};
-use crate::axis::AxisVec;
 use crate::contour::SAME_START_MM;
 
-/// Number of points at which a bend is evaluated.
-const BEND_POINTS: u32 = 6;
 /// Doublings from the first guess of a speed to the planned speed.
 const DOUBLINGS: u32 = 4;
 /// Ratio of two excesses up to which the second one is ignored.
@@ -38,16 +36,6 @@ const ALMOST: f64 = 0.995;
 const MOST: f64 = 0.25;
 /// Smallest even speed, as a share of the planned speed.
 const LEAST: f64 = 2.5e-4;
-
-/// A kink or a bent block within reach.
-struct Part {
-    mark: usize,
-    bend: bool,
-    /// Contribution to the deviation in mm.
-    size: f64,
-    /// Path length.
-    s: f64,
-}
 
 /// Marks with a common speed: of their blocks, and (`kinks`) of their entries.
 #[derive(Default)]
@@ -66,83 +54,58 @@ impl View<'_> {
         demands: &Demands,
         findings: &mut Findings,
     ) {
-        let Self { trial, marks, .. } = self;
-        let length = u64::from(trial.kernels.length());
-        // a point of the segment between two set points: for the first of them, the filters reach one cycle further
-        // back
-        let oldest = v.cycle.saturating_sub(length + 1);
-        let first = marks.partition_point(|m| m.cycles <= oldest as f64).saturating_sub(1);
-        // the set path turns off after its point nearest to the missed one
-        let newest = v.cycle + u64::from(v.missed.is_some());
-        let until = |k: u64| marks.partition_point(|m| m.cycles <= k as f64);
-        let mut last = until(newest);
-        // the nearest point may be final, but while the filters hold the missed point the set path can still come
-        // closer
-        let is_final = |m: &Mark| m.boundary.is_none() && m.block.is_none();
-        if let Some((_, s)) = &v.missed
-            && marks[..last].iter().all(is_final)
-        {
-            last = until(record.leaves(*s) + length + 1);
-        }
-        if first >= last {
+        let Some(case) = self.case(v, record, demands) else { return };
+        if self.is_known(&case, findings) {
             return;
         }
-        let excess = v.excess();
-        // in a slow run over the same blocks the same demand would be repeated many times; where a straight line is
-        // divided does not matter
+        let parts = self.causes(&case);
+        let even = self.even_speed(&case);
+        let (mut shared, blamed) = self.select(&case, &parts, even, findings);
+        if !blamed || all {
+            self.blame_the_rest(&case, &parts, all, &mut shared, findings);
+        }
+        if self.trial.kernels.unequal {
+            self.turn_to_the_faster(&mut shared, &case, even);
+        }
+        self.share(&shared, &case, even, findings);
+    }
+
+    /// Whether the last violation of this kind had the same causes and was hardly smaller: in a slow run over the same blocks the same
+    /// demand would be repeated many times. Where a straight line is divided does not matter.
+    fn is_known(&self, case: &Case<'_>, findings: &mut Findings) -> bool {
+        let Case { v, first, last, .. } = *case;
+        let marks = &self.marks;
         let mut causes = (first..last)
             .filter(|m| *m > first && marks[*m].is_kink() || marks[*m].queued.bend > 0.0);
         let place = causes.next().map_or((0, 0), |m| (m, causes.next_back().unwrap_or(m)));
-        let told = &mut findings.last[usize::from(v.missed.is_some())];
+        let (told, excess) = (&mut findings.last[usize::from(v.missed.is_some())], v.excess());
         if told.is_some_and(|(at, most)| at == place && excess <= LITTLE_MORE * most) {
-            return;
+            return true;
         }
         *told = Some((place, excess));
-        let mut parts = self.parts_of(v, &[v.cycle], record, (first, last));
-        let free = |p: &Part| {
-            let m = &marks[p.mark];
-            if p.bend {
-                m.block.is_some()
-            } else {
-                m.boundary
-                    .is_some_and(|b| demands.stop[b].is_none_or(|dwell| u64::from(dwell) < length))
-            }
-        };
-        // the filters hold the set point on one side of a corner, and the segment to it comes from the other side
-        if !parts.iter().any(|p| free(p) && p.size > 0.0) {
-            let line = [v.cycle.saturating_sub(1), v.cycle];
-            parts = self.parts_of(v, &line, record, (first, last));
-        }
-        // far from the contour, the nearest point is not the middle of what the filters hold; then no part, or not even
-        // the sum of all parts, may point in the direction of the deviation
-        if !parts.iter().any(|p| free(p) && p.size > 0.0)
-            || parts.iter().map(|p| p.size).sum::<f64>() <= 0.0
-        {
-            for part in &mut parts {
-                part.size = part.size.abs();
-            }
-        }
-        // a corner missed because the dwell there was too short: the filters hold nothing beyond it yet
-        if let Some((_, missed)) = &v.missed
-            && !parts.iter().any(|p| free(p) && p.size > 0.0)
-        {
-            let away = |p: &&mut Part| (p.s - missed).abs();
-            let kinks = parts.iter_mut().filter(|p| free(p) && !p.bend);
-            if let Some(part) = kinks.min_by(|a, b| away(a).total_cmp(&away(b))) {
-                part.size = v.deviation_mm;
-            }
-        }
-        let largest = parts.iter().filter(|p| free(p)).map(|p| p.size).fold(0.0, f64::max);
-        let kinks = parts.iter().filter(|p| free(p) && !p.bend).map(|p| p.size);
-        let sharpest = kinks.fold(0.0, f64::max);
+        false
+    }
+
+    /// Notes the isolated corners among the largest parts, and returns the marks that share a speed, and whether there is anything to
+    /// blame.
+    fn select(
+        &self,
+        case: &Case<'_>,
+        parts: &[Part],
+        even: f64,
+        findings: &mut Findings,
+    ) -> (Shared, bool) {
+        let (marks, stop) = (&self.marks, &case.demands.stop);
+        let free = || parts.iter().filter(|p| self.is_free(p, case.demands));
+        let largest = free().map(|p| p.size).fold(0.0, f64::max);
+        let sharpest = free().filter(|p| !p.bend).map(|p| p.size).fold(0.0, f64::max);
         // a bend next to a larger kink is left alone until the kink is settled: it may be a long arc, which would stay
         // slow
         let counts = |p: &&Part| {
-            free(p) && p.size > 0.0 && p.size >= ALIKE * largest && !(p.bend && p.size <= sharpest)
+            p.size > 0.0 && p.size >= ALIKE * largest && !(p.bend && p.size <= sharpest)
         };
-        let alike: Vec<&Part> = parts.iter().filter(counts).collect();
-        let even = self.even_speed(v, record, demands);
-        let apart = even * length as f64 * trial.cycle.seconds();
+        let alike: Vec<&Part> = free().filter(counts).collect();
+        let apart = even * f64::from(self.trial.kernels.length()) * self.trial.cycle.seconds();
         let isolated = |i: usize| -> bool {
             let p = alike[i];
             let near = |q: &&Part| (p.s - q.s).abs() <= apart;
@@ -151,8 +114,7 @@ impl View<'_> {
                 && alike.get(i + 1).is_none_or(|q| !near(q))
         };
         // where the path already stops it can dwell longer, and between two stops a lower speed does not help
-        let rests =
-            |p: &Part| !p.bend && marks[p.mark].boundary.is_some_and(|b| demands.stop[b].is_some());
+        let rests = |p: &Part| !p.bend && marks[p.mark].boundary.is_some_and(|b| stop[b].is_some());
         let mut shared = Shared::default();
         let mut blamed = false;
         for (i, part) in alike.iter().enumerate() {
@@ -162,7 +124,7 @@ impl View<'_> {
             if part.bend {
                 shared.marks.push(part.mark);
             } else if isolated(i) || rests(part) {
-                findings.corner[b] = findings.corner[b].max(excess);
+                findings.corner[b] = findings.corner[b].max(case.v.excess());
             } else {
                 shared.kinks.push(part.mark);
             }
@@ -173,46 +135,44 @@ impl View<'_> {
                 shared.marks.extend(pair[0].mark..pair[1].mark);
             }
         }
-        if !blamed || all {
-            // a cause before a stop is already final, but the blocks after the stop can wait until the filters have let
-            // it pass
-            let fixed = |p: &&Part| marks[p.mark].block.is_none();
-            let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
-            let waits = (all || before > 0.0)
-                && marks[first..last].iter().any(|m| m.boundary == Some(0))
-                && demands.stop[0].is_none_or(|dwell| u64::from(dwell) < length);
-            if waits {
-                findings.corner[0] = findings.corner[0].max(excess);
-            }
-            if !waits || all {
-                // after a long dwell the filters hold nothing of the block before it
-                let held = record.s(oldest);
-                let is_left = |m: &usize| {
-                    marks.get(m + 1).is_some_and(|next| next.s_mm <= held + SAME_START_MM)
-                };
-                shared.marks.extend((first..last).filter(|m| !is_left(m)));
-            }
+        (shared, blamed)
+    }
+
+    /// A cause before a stop is already final, but the blocks after the stop can wait until the filters have let it pass. If they do
+    /// not, or `all` is to blame, every block that the filters hold shares a speed.
+    fn blame_the_rest(
+        &self,
+        case: &Case<'_>,
+        parts: &[Part],
+        all: bool,
+        shared: &mut Shared,
+        findings: &mut Findings,
+    ) {
+        let Case { v, record, demands, first, last } = *case;
+        let marks = &self.marks;
+        let fixed = |p: &&Part| marks[p.mark].block.is_none();
+        let before = parts.iter().filter(fixed).map(|p| p.size).fold(0.0, f64::max);
+        let waits = (all || before > 0.0)
+            && marks[first..last].iter().any(|m| m.boundary == Some(0))
+            && demands.stop[0].is_none_or(|dwell| dwell < self.trial.kernels.length());
+        if waits {
+            findings.corner[0] = findings.corner[0].max(v.excess());
         }
-        if trial.kernels.unequal {
-            self.turn_to_the_faster(&mut shared, (first, last), even, v, record, demands);
+        if !waits || all {
+            // after a long dwell the filters hold nothing of the block before it
+            let held = record.s(self.oldest(v));
+            let is_left =
+                |m: &usize| marks.get(m + 1).is_some_and(|next| next.s_mm <= held + SAME_START_MM);
+            shared.marks.extend((first..last).filter(|m| !is_left(m)));
         }
-        self.share(&shared, even, v, record, demands, findings);
     }
 
     /// Where the delays differ, a straight block contributes to the deviation, too, in proportion to its speed: blocks
     /// faster than the even speed are to blame before the others.
-    fn turn_to_the_faster(
-        &self,
-        shared: &mut Shared,
-        (first, last): (usize, usize),
-        even: f64,
-        v: &Violation,
-        record: &Record,
-        demands: &Demands,
-    ) {
-        let faster = |m: &usize| self.present(*m, v, record, demands) > even / ALMOST;
+    fn turn_to_the_faster(&self, shared: &mut Shared, case: &Case<'_>, even: f64) {
+        let faster = |m: &usize| self.present(*m, case) > even / ALMOST;
         if !shared.marks.is_empty() && !shared.marks.iter().any(faster) {
-            let faster: Vec<usize> = (first..last).filter(faster).collect();
+            let faster: Vec<usize> = (case.first..case.last).filter(faster).collect();
             if !faster.is_empty() {
                 *shared = Shared { marks: faster, kinks: Vec::new() };
             }
@@ -220,26 +180,19 @@ impl View<'_> {
     }
 
     /// Highest speed in mm/s on the block of a mark within the filters at a violation; 0 if it is final.
-    fn present(&self, m: usize, v: &Violation, record: &Record, demands: &Demands) -> f64 {
+    fn present(&self, m: usize, case: &Case<'_>) -> f64 {
         let mark = &self.marks[m];
-        let asked = mark.block.map_or(0.0, |b| demands.feed[b]);
-        self.fastest(v, record, mark.s_mm, mark.s_mm + mark.queued.length).min(asked)
+        let asked = mark.block.map_or(0.0, |b| case.demands.feed[b]);
+        self.fastest(case, mark.s_mm, mark.s_mm + mark.queued.length).min(asked)
     }
 
     /// Demands one speed for a stretch: the even speed, or a lower one if that is not below the planned speed.
-    fn share(
-        &self,
-        shared: &Shared,
-        even: f64,
-        v: &Violation,
-        record: &Record,
-        demands: &Demands,
-        findings: &mut Findings,
-    ) {
+    fn share(&self, shared: &Shared, case: &Case<'_>, even: f64, findings: &mut Findings) {
+        let Case { v, demands, .. } = *case;
         let marks = &self.marks;
         let at = |m: &usize, length: f64, asked: f64| {
             let s = marks[*m].s_mm;
-            self.fastest(v, record, s, s + length).min(asked)
+            self.fastest(case, s, s + length).min(asked)
         };
         let blocks = shared.marks.iter().map(|m| {
             let asked = marks[*m].block.map_or(f64::INFINITY, |b| demands.feed[b]);
@@ -282,7 +235,8 @@ impl View<'_> {
     }
 
     /// Highest speed in mm/s between two path lengths within the filters at a violation.
-    fn fastest(&self, v: &Violation, record: &Record, from: f64, to: f64) -> f64 {
+    fn fastest(&self, case: &Case<'_>, from: f64, to: f64) -> f64 {
+        let Case { v, record, .. } = *case;
         let length = u64::from(self.trial.kernels.length());
         let cycles = v.cycle.saturating_sub(length)..v.cycle;
         let inside = cycles.filter(|k| record.s(k + 1) >= from && record.s(*k) <= to);
@@ -290,71 +244,12 @@ impl View<'_> {
         steps.fold(0.0, f64::max) / self.trial.cycle.seconds()
     }
 
-    /// Parts in a deviation, positive in its direction, in the order of the path: for the set point of a cycle, or for
-    /// the middle of the segment between two.
-    fn parts_of(
-        &self,
-        v: &Violation,
-        cycles: &[u64],
-        record: &Record,
-        (first, last): (usize, usize),
-    ) -> Vec<Part> {
-        let Self { trial, marks, .. } = self;
-        let Some(kernel) = trial.kernels.get(v.axis).or_else(|| trial.kernels.longest()) else {
-            return Vec::new();
-        };
-        let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));
-        let mean = |weighed: &dyn Fn(f64, f64) -> f64| -> f64 {
-            let of = |cycle: &u64| -> f64 {
-                let held = |delay: u32| record.s(cycle.saturating_sub(u64::from(delay)));
-                kernel.taps().iter().map(|t| weighed(t.weight, held(t.delay))).sum()
-            };
-            cycles.iter().map(of).sum::<f64>() / cycles.len() as f64
-        };
-        let middle = mean(&|weight, s| weight * s);
-        let weight = |s: f64| {
-            mean(&|weight, held| {
-                let d = held - s;
-                weight.abs() * if s >= middle { d.max(0.0) } else { (-d).max(0.0) }
-            })
-        };
-        let (oldest, newest) = (at(kernel.length()), at(0));
-        let length = v.vector.iter().map(|c| c * c).sum::<f64>().sqrt();
-        let toward: AxisVec = v.vector.iter().map(|c| c / length).collect();
-        let mut curvature = AxisVec::zeros(marks[first].point().len());
-        let mut parts = Vec::new();
-        for (m, mark) in marks.iter().enumerate().take(last).skip(first) {
-            if m > first && mark.is_kink() {
-                let size = self.turn(m, &toward) * weight(mark.s_mm);
-                parts.push(Part { mark: m, bend: false, size, s: mark.s_mm });
-            }
-            if mark.queued.bend > 0.0 {
-                let from = oldest.max(mark.s_mm);
-                let to = newest.min(mark.s_mm + mark.queued.length);
-                let step = (to - from) / f64::from(BEND_POINTS);
-                let mut size = 0.0;
-                for i in 0..BEND_POINTS {
-                    let s = from + (f64::from(i) + 0.5) * step;
-                    mark.queued
-                        .block
-                        .path
-                        .curvature(mark.queued.offset + s - mark.s_mm, &mut curvature);
-                    let pull: f64 = curvature.iter().zip(toward.iter()).map(|(c, u)| c * u).sum();
-                    size += pull * weight(s) * step;
-                }
-                if step > 0.0 {
-                    parts.push(Part { mark: m, bend: true, size, s: middle.clamp(from, to) });
-                }
-            }
-        }
-        parts
-    }
-
     /// Speed in mm/s at which the stretch of a violation keeps the tolerance when traversed at constant speed; at most
     /// the highest one planned there.
-    fn even_speed(&self, v: &Violation, record: &Record, demands: &Demands) -> f64 {
+    fn even_speed(&self, case: &Case<'_>) -> f64 {
         let Self { trial, marks, .. } = self;
-        let fastest_planned = self.fastest(v, record, f64::NEG_INFINITY, f64::INFINITY);
+        let Case { v, record, demands, .. } = *case;
+        let fastest_planned = self.fastest(case, f64::NEG_INFINITY, f64::INFINITY);
         let longest = trial.kernels.longest();
         let Some(kernel) = trial.kernels.get(v.axis).or(longest) else { return fastest_planned };
         let at = |delay: u32| record.s(v.cycle.saturating_sub(u64::from(delay)));

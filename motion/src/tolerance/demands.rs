@@ -39,7 +39,7 @@ pub(crate) struct Demands {
     pub(super) slower: Vec<(u32, f64)>,
     /// Excess in mm at each boundary when it was last too fast.
     pub(super) tried: Vec<Option<f64>>,
-    /// First boundary without a known even speed, see [`super::even::foresee`].
+    /// First boundary without a known even speed, see [`super::foresee`].
     pub(super) foreseen: usize,
     /// The plan for whose excesses even speeds were demanded.
     pub(super) answered: Option<Answered>,

@@ -1,18 +1,15 @@
 //! Even speeds: the highest constant speed at which a stretch of the path keeps the tolerance.
 //!
 //! They depend only on the path, the filters and the tolerance, not on the plan. A search therefore starts with them as
-//! demands if the free plan does not keep the tolerance ([`foresee`]): where they limit the speed, a higher feed rate
+//! demands if the free plan does not keep the tolerance ([`super::foresee`]): where they limit the speed, a higher feed rate
 //! has no effect.
 
-use super::marks::STRAIGHT;
+use super::Kernels;
 use super::violation::within;
-use super::{Demands, Kernels};
 use crate::axis::AxisVec;
 use crate::contour::{Contour, ROUNDING_MM};
 use crate::deviation::{SetPath, distance};
-use crate::queue::Queued;
 use kontur_filters::time::CycleTime;
-use std::sync::Arc;
 
 /// Share of the tolerance by which an even speed aims below it.
 const AIM: f64 = 0.01;
@@ -20,8 +17,6 @@ const AIM: f64 = 0.01;
 const HALVINGS: u32 = 24;
 /// Places, to each side of a point of the contour, at which the set path is compared with the point.
 const PLACES: i32 = 4;
-/// Rounds that refine a guess.
-const ROUNDS: u32 = 8;
 /// Ratio to the largest part of a deviation from which on another part counts as similar.
 pub(super) const ALIKE: f64 = 0.3;
 
@@ -134,123 +129,4 @@ pub(super) fn fastest(guess: f64, least: f64, most: f64, keeps: impl Fn(f64) -> 
         if keeps(mid) { low = mid } else { high = mid }
     }
     low
-}
-
-/// A kink of the contour ahead.
-struct Kink {
-    /// Boundary of the window; `s`: path length there.
-    boundary: usize,
-    s: f64,
-    /// Length of the change of direction.
-    turn: f64,
-    /// Whether the path turns back by more than 90 deg.
-    acute: bool,
-    tolerance_mm: f64,
-    /// Highest speed in mm/s of the two adjacent blocks.
-    feed: f64,
-}
-
-/// Whether the filters are equal and without overshoot: the speeds at kinks are then known before any trial.
-pub(super) fn foresees(kernels: &Kernels) -> bool {
-    kernels.any() && !kernels.unequal && !kernels.overshoot
-}
-
-/// Demands even speeds at the kinks of a window that begins at path length `start`, and between kinks within reach of
-/// each other; false if this changes nothing. Kinks too close to the end of the window are examined again when more
-/// blocks are known.
-pub(super) fn foresee(
-    demands: &mut Demands,
-    window: &[Arc<Queued>],
-    past: &Contour,
-    start: f64,
-    (kernels, cycle): (&Kernels, CycleTime),
-) -> bool {
-    let Some(kernel) = kernels.longest().filter(|_| foresees(kernels)) else { return false };
-    let mut contour = past.clone();
-    let mut end = start;
-    for queued in window {
-        contour.enter(f64::INFINITY, end, Arc::clone(queued));
-        end += queued.length;
-    }
-    let between = (f64::NEG_INFINITY, f64::INFINITY);
-    let evenly = Evenly { contour: &contour, kernels, cycle, between };
-    let [m1, reach] =
-        [kernel.m1_cycles(), f64::from(kernel.length())].map(|cycles| cycles * cycle.seconds());
-    let delay = kernel.delay_cycles() * cycle.seconds();
-    let side = delay.max(reach - delay);
-    let kinks = kinks(window, start);
-    let first = kinks.partition_point(|k| k.boundary < demands.foreseen).saturating_sub(1);
-    demands.foreseen = window.len();
-    let mut before: Option<(&Kink, f64)> = None;
-    let mut changes = false;
-    for (i, kink) in kinks.iter().enumerate().skip(first) {
-        // the mean path beyond a kink falls with the distance from it, below a straight line to the end of the filter
-        let part = |k: &Kink, speed: f64| k.turn * m1 * (speed - (k.s - kink.s).abs() / side);
-        let parts = |speed: f64| {
-            let behind = kinks[i..].iter().map(move |k| part(k, speed)).take_while(|p| *p > 0.0);
-            let ahead = kinks[..i].iter().rev().map(move |k| part(k, speed));
-            behind.chain(ahead.take_while(|p| *p > 0.0))
-        };
-        let aim = aim(kink.tolerance_mm);
-        let mut guess = kink.feed.min(aim / (m1 * kink.turn));
-        for _ in 0..ROUNDS {
-            let sum: f64 = parts(guess).sum();
-            if sum <= aim {
-                break;
-            }
-            guess *= (aim / sum).max(0.5);
-        }
-        let even = if guess >= kink.feed {
-            kink.feed
-        } else {
-            let point = window[kink.boundary].block.path.start();
-            fastest(guess, 1e-3 * guess, kink.feed, |speed| {
-                evenly.stays(kink.s, speed, aim)
-                    && (!kink.acute || evenly.misses(point, kink.s, speed) <= aim)
-            })
-        };
-        if kink.s + even * reach > end {
-            demands.foreseen = demands.foreseen.min(kink.boundary);
-        }
-        let largest = parts(even).fold(0.0, f64::max);
-        if even >= kink.feed || part(kink, even) < ALIKE * largest {
-            continue;
-        }
-        let cap = &mut demands.cap[kink.boundary];
-        changes |= even < *cap;
-        *cap = cap.min(even);
-        if let Some((other, speed)) = before {
-            let speed = speed.max(even);
-            if kink.s - other.s <= speed * reach {
-                for feed in &mut demands.feed[other.boundary..kink.boundary] {
-                    *feed = feed.min(speed);
-                }
-            }
-        }
-        before = Some((kink, even));
-    }
-    changes
-}
-
-/// The kinks of a window that begins at path length `start`.
-fn kinks(window: &[Arc<Queued>], start: f64) -> Vec<Kink> {
-    let mut s = start;
-    let mut out = Vec::new();
-    for (b, pair) in window.windows(2).enumerate() {
-        let [from, to] = [&pair[0], &pair[1]];
-        s += from.length;
-        let tolerances = [from, to].map(|q| q.block.tolerance.ax_dev_mm.unwrap_or(f64::INFINITY));
-        let tolerance_mm = tolerances[0].min(tolerances[1]);
-        let (out_of, into) = (&from.ends.tangent_out, &to.ends.tangent_in);
-        let turns = out_of.iter().zip(into.iter()).map(|(a, b)| (b - a) * (b - a));
-        let turn = turns.sum::<f64>().sqrt();
-        // the remainder of a block continues without a kink
-        if turn <= STRAIGHT || to.offset > 0.0 || tolerance_mm.is_infinite() {
-            continue;
-        }
-        let acute = out_of.iter().zip(into.iter()).map(|(a, b)| a * b).sum::<f64>() < 0.0;
-        let feed = from.velocity.v_mm_s.max(to.velocity.v_mm_s);
-        out.push(Kink { boundary: b + 1, s, turn, acute, tolerance_mm, feed });
-    }
-    out
 }

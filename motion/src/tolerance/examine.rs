@@ -2,8 +2,8 @@
 
 use super::answered::{Answered, Exceeded};
 use super::demands::Demands;
-use super::even::{foresee, foresees};
 use super::findings::Findings;
+use super::foresee::{foresee, foresees};
 use super::leaves::Left;
 use super::marks::Marks;
 use super::places::Places;

@@ -104,17 +104,15 @@ impl View<'_> {
         if tolerance_mm.is_infinite() {
             return None;
         }
-        // the components depend on which blocks count as within reach
-        let doubt = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
-        let is_certain = contour.is_one_path(within_reach, (BORDER_CYCLES, BORDER_CYCLES), sight);
-        let doubtful = |sight: &mut Sight| {
-            if is_certain {
-                return 0.0;
-            }
-            set.doubtful(contour, k, within_reach, doubt, sight)
-        };
         // the shortest vectors keep the tolerance if the bound does, which is close to them where the filters are equal
         let keeps = apart <= within(tolerance_mm) && !self.trial.kernels.differ();
+        let slack = (BORDER_CYCLES, BORDER_CYCLES);
+        if keeps && contour.is_one_path(within_reach, slack, sight) {
+            return None;
+        }
+        // the components depend on which blocks count as within reach
+        let doubt = (BORDER_CYCLES, 10.0 * SPACING * tolerance_mm);
+        let doubtful = |sight: &mut Sight| set.doubtful(contour, k, within_reach, doubt, sight);
         let alternatives = keeps.then(|| doubtful(sight));
         if alternatives.is_some_and(|largest| largest <= within(tolerance_mm)) {
             return None;

@@ -3,6 +3,7 @@
 use super::Trial;
 use super::demands::{Demands, hurry, turns};
 use super::findings::Findings;
+use super::marks::Mark;
 use super::view::View;
 use crate::axis::AxisVec;
 use crate::overshoot::gentle;
@@ -49,100 +50,140 @@ impl View<'_> {
 
     /// Tightens the demands on what is to blame; `all`: on everything within reach.
     pub(super) fn tighten(&self, findings: &Findings, all: bool, demands: &mut Demands) {
-        let Self { trial, marks, .. } = self;
-        let full = trial.kernels.length();
         let mut soften = vec![None; demands.feed.len()];
-        for (m, mark) in marks.iter().enumerate() {
-            let Some(b) = mark.boundary else { continue };
-            let excess = findings.corner[b];
-            if excess <= 0.0 {
-                continue;
-            }
-            let before = m.checked_sub(1).map(|before| &marks[before]);
-            let tolerances = [Some(mark), before].into_iter().flatten();
-            let tolerances = tolerances.filter_map(|mark| mark.queued.block.tolerance.ax_dev_mm);
-            let tolerance = tolerances.min_by(f64::total_cmp).unwrap_or(0.0);
-            let swings = trial.kernels.overshoot
-                && demands.stop[b]
-                    .is_some_and(|dwell| dwell == full || !self.rest_at(mark, dwell).keeps(full));
-            if swings {
-                // the remaining excess is the overshoot of the stop itself
-                if b > 0 {
-                    note(&mut soften[b - 1], excess, tolerance);
-                }
-                note(&mut soften[b], excess, tolerance);
-                // after many rounds the excess may be the overshoot of the final part, which decays
-                if !all {
-                    continue;
-                }
-            }
-            if all {
-                (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
-                continue;
-            }
-            let resting = demands.stop[b].or((b == 0).then_some(0));
-            if let Some(dwell) = resting {
-                // in small steps, because neighbouring corners within reach share the error
-                let most = (dwell + (full / 8).max(1)).min(full);
-                let least = 1 + (GROWTH * f64::from(full) * f64::from(demands.repeats[b])) as u32;
-                let needed = self.rest_at(mark, dwell).needed(dwell, most);
-                demands.stop[b] = Some(needed.max(dwell + least).min(full));
-                demands.repeats[b] += 1;
-                continue;
-            }
-            let m1 =
-                trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles) * trial.cycle.seconds();
-            let now = self.speed_at(b);
-            // The steepest fall of the error with the speed. The effect of the last step would be a larger step, but
-            // the accelerations to a much lower speed leave the contour, too (`du a M2 / 2`): each of several corners
-            // within reach would then slow down the others.
-            let slope = m1 * mark.jump;
-            let stays = demands.tried[b].is_some_and(|e| excess > WITHOUT_EFFECT * e);
-            demands.repeats[b] = if stays { demands.repeats[b] + 1 } else { 0 };
-            demands.tried[b] = Some(excess);
-            let step = (excess + AIM * tolerance) / slope;
-            let lowered = now - step * f64::from(hurry(demands.repeats[b]));
-            // at a harmless speed the accelerations next to the corner are the cause
-            if lowered > (0.03 * now).max(harmless(trial, tolerance)) {
-                demands.cap[b] = demands.cap[b].min(lowered);
-            } else {
-                (demands.cap[b], demands.stop[b]) = (0.0, Some(0));
-                demands.repeats[b] = 0;
-            }
+        for m in 0..self.marks.len() {
+            self.tighten_corner(m, findings, all, demands, &mut soften);
         }
-        for mark in marks {
+        for mark in &self.marks {
             if let Some(b) = mark.boundary {
                 demands.cap[b] = demands.cap[b].min(findings.even_at[b]);
             }
             let Some(b) = mark.block else { continue };
-            let queued = &mark.queued;
-            if let Some((excess, tolerance)) = findings.block[b] {
-                if trial.kernels.overshoot {
-                    note(&mut soften[b], excess, tolerance);
+            if let Some(excess) = findings.block[b] {
+                if self.trial.kernels.overshoot {
+                    note(&mut soften[b], excess);
                 }
-                let slow_enough = harmless(trial, tolerance);
-                // on a straight block with equal kernels only starts and stops leave the contour
-                let starts_only = trial.kernels.overshoot && !trial.kernels.unequal;
-                if queued.bend > 0.0 || !starts_only || findings.even[b].is_finite() {
-                    let even = if all { HASTE * findings.even[b] } else { findings.even[b] };
-                    demands.feed[b] = demands.feed[b].min(even.max(slow_enough));
-                    let (repeats, before) = demands.slower[b];
-                    let stays = excess > WITHOUT_EFFECT * before;
-                    demands.slower[b] = (if stays { repeats + 1 } else { 0 }, excess);
-                }
+                self.slow_down(b, &mark.queued, excess, findings.even[b], all, demands);
             }
-            if let Some((excess, tolerance)) = soften[b] {
-                let haste = if all { 0.7 } else { 1.0 };
-                let now = demands.acceleration[b];
-                let ratio = haste * 0.99 * tolerance / (tolerance + excess);
-                let gentle = self.gentle_ratio(b, queued, tolerance);
-                demands.acceleration[b] = if now >= 1.0 {
-                    ratio.min(2.0 * gentle)
-                } else {
-                    // a start and a stop that overlap may share the tolerance; a further reduction does not help
-                    (now * ratio.max(0.3)).max(now.min(LEAST_SHARE * gentle))
-                };
+            if let Some(excess) = soften[b] {
+                demands.acceleration[b] =
+                    self.softened(b, &mark.queued, excess, all, demands.acceleration[b]);
             }
+        }
+    }
+
+    /// Lowers the speed at the corner of a mark, or lengthens the rest there.
+    fn tighten_corner(
+        &self,
+        m: usize,
+        findings: &Findings,
+        all: bool,
+        demands: &mut Demands,
+        soften: &mut [Option<(f64, f64)>],
+    ) {
+        let (trial, mark) = (self.trial, &self.marks[m]);
+        let full = trial.kernels.length();
+        let Some(b) = mark.boundary.filter(|b| findings.corner[*b] > 0.0) else { return };
+        let excess = findings.corner[b];
+        let before = m.checked_sub(1).map(|before| &self.marks[before]);
+        let tolerances = [Some(mark), before].into_iter().flatten();
+        let tolerances = tolerances.filter_map(|mark| mark.queued.block.tolerance.ax_dev_mm);
+        let tolerance = tolerances.min_by(f64::total_cmp).unwrap_or(0.0);
+        let swings = trial.kernels.overshoot
+            && demands.stop[b]
+                .is_some_and(|dwell| dwell == full || !self.rest_at(mark, dwell).keeps(full));
+        if swings {
+            // the remaining excess is the overshoot of the stop itself
+            if b > 0 {
+                note(&mut soften[b - 1], (excess, tolerance));
+            }
+            note(&mut soften[b], (excess, tolerance));
+            // after many rounds the excess may be the overshoot of the final part, which decays
+            if !all {
+                return;
+            }
+        }
+        if all {
+            (demands.cap[b], demands.stop[b]) = (0.0, Some(full));
+            return;
+        }
+        let resting = demands.stop[b].or((b == 0).then_some(0));
+        if let Some(dwell) = resting {
+            // in small steps, because neighbouring corners within reach share the error
+            let most = (dwell + (full / 8).max(1)).min(full);
+            let least = 1 + (GROWTH * f64::from(full) * f64::from(demands.repeats[b])) as u32;
+            let needed = self.rest_at(mark, dwell).needed(dwell, most);
+            demands.stop[b] = Some(needed.max(dwell + least).min(full));
+            demands.repeats[b] += 1;
+            return;
+        }
+        self.lower(b, mark, (excess, tolerance), demands);
+    }
+
+    /// Lowers the speed at the boundary of a mark that is passed without a stop, by an excess and its tolerance in mm.
+    fn lower(&self, b: usize, mark: &Mark, (excess, tolerance): (f64, f64), demands: &mut Demands) {
+        let trial = self.trial;
+        let m1 =
+            trial.kernels.get(mark.axis).map_or(1.0, Kernel::m1_cycles) * trial.cycle.seconds();
+        let now = self.speed_at(b);
+        // The steepest fall of the error with the speed. The effect of the last step would be a larger step, but
+        // the accelerations to a much lower speed leave the contour, too (`du a M2 / 2`): each of several corners
+        // within reach would then slow down the others.
+        let slope = m1 * mark.jump;
+        let stays = demands.tried[b].is_some_and(|e| excess > WITHOUT_EFFECT * e);
+        demands.repeats[b] = if stays { demands.repeats[b] + 1 } else { 0 };
+        demands.tried[b] = Some(excess);
+        let step = (excess + AIM * tolerance) / slope;
+        let lowered = now - step * f64::from(hurry(demands.repeats[b]));
+        // at a harmless speed the accelerations next to the corner are the cause
+        if lowered > (0.03 * now).max(harmless(trial, tolerance)) {
+            demands.cap[b] = demands.cap[b].min(lowered);
+        } else {
+            (demands.cap[b], demands.stop[b]) = (0.0, Some(0));
+            demands.repeats[b] = 0;
+        }
+    }
+
+    /// Lowers the feed of a block to the even speed in mm/s found for it.
+    fn slow_down(
+        &self,
+        b: usize,
+        queued: &Queued,
+        (excess, tolerance): (f64, f64),
+        even: f64,
+        all: bool,
+        demands: &mut Demands,
+    ) {
+        let kernels = self.trial.kernels;
+        // on a straight block with equal kernels only starts and stops leave the contour
+        let starts_only = kernels.overshoot && !kernels.unequal;
+        if queued.bend <= 0.0 && starts_only && !even.is_finite() {
+            return;
+        }
+        let hasty = if all { HASTE * even } else { even };
+        demands.feed[b] = demands.feed[b].min(hasty.max(harmless(self.trial, tolerance)));
+        let (repeats, before) = demands.slower[b];
+        let stays = excess > WITHOUT_EFFECT * before;
+        demands.slower[b] = (if stays { repeats + 1 } else { 0 }, excess);
+    }
+
+    /// A lower share of the acceleration for a block whose starts and stops overshoot; `now`: the present one.
+    fn softened(
+        &self,
+        b: usize,
+        queued: &Queued,
+        (excess, tolerance): (f64, f64),
+        all: bool,
+        now: f64,
+    ) -> f64 {
+        let haste = if all { 0.7 } else { 1.0 };
+        let ratio = haste * 0.99 * tolerance / (tolerance + excess);
+        let gentle = self.gentle_ratio(b, queued, tolerance);
+        if now >= 1.0 {
+            ratio.min(2.0 * gentle)
+        } else {
+            // a start and a stop that overlap may share the tolerance; a further reduction does not help
+            (now * ratio.max(0.3)).max(now.min(LEAST_SHARE * gentle))
         }
     }
 
@@ -221,7 +262,7 @@ fn harmless(trial: &Trial<'_>, tolerance: f64) -> f64 {
 }
 
 /// Keeps the larger excess.
-fn note(slot: &mut Option<(f64, f64)>, excess: f64, tolerance: f64) {
+fn note(slot: &mut Option<(f64, f64)>, (excess, tolerance): (f64, f64)) {
     if slot.is_none_or(|(e, _)| e < excess) {
         *slot = Some((excess, tolerance));
     }

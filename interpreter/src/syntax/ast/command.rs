@@ -61,6 +61,12 @@ pub struct Command {
 }
 
 impl Command {
+    /// Whether it belongs to conditional text: `#IF`, `#ELSE`, `#ENDIF`. What is behind these is reported with the structure of the
+    /// file.
+    pub(crate) fn is_conditional(&self) -> bool {
+        self.words.first().is_some_and(|word| matches!(&*word.text, "IF" | "ELSE" | "ENDIF"))
+    }
+
     /// Place of the first word behind the name that is one of the program, as `X5` in `#TRAFO OFF X5`, or its letter, as in
     /// `#SCENE F=500`: no command has words of a letter and a number.
     pub(crate) fn word_behind(&self) -> Option<Span> {

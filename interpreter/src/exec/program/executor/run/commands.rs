@@ -24,11 +24,10 @@ impl Executor {
             }
             return;
         }
-        // words behind them have been reported with the structure of the file
-        let first = command.words.first().map_or("", |word| &word.text);
-        let conditional = ["IF", "ELSE", "ENDIF"].contains(&first);
-        if conditional || command.is("COMMENT BEGIN") || command.is("COMMENT END") {
-            if let (Some(entry), "IF") = (entry, first) {
+        let is_comment = command.is("COMMENT BEGIN") || command.is("COMMENT END");
+        if command.is_conditional() || is_comment {
+            let is_if = command.words.first().is_some_and(|word| &*word.text == "IF");
+            if let Some(entry) = entry.filter(|_| is_if) {
                 self.conditional(command, entry);
             }
             return;
