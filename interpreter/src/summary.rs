@@ -39,9 +39,9 @@ pub use ripple::SpeedRipple;
 /// Number of messages that are kept; more are only counted, because a program may repeat a warning without end.
 const MESSAGES_KEPT: usize = 1000;
 
-/// Contour errors in mm that differ by less are the same one: that of the first corner of several equal ones is named, whatever
+/// Ratio of contour errors up to which they are the same one: that of the first corner of several equal ones is named, whatever
 /// their last bits are.
-const SAME_ERROR_MM: f64 = 1e-9;
+const SAME_ERROR: f64 = 1.0 + 1e-9;
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -242,7 +242,7 @@ impl Collector {
     /// Adds the values of a cycle that do not belong to an axis; `ipo`: interpolated setpoints of the axes.
     fn add_whole(&mut self, record: &CycleRecord, ipo: impl Fn(usize) -> Option<f64>) {
         let error_mm = record.contour_err_mm;
-        if self.cycles == 0 || error_mm > self.worst.0 + SAME_ERROR_MM {
+        if self.cycles == 0 || error_mm > self.worst.0 * SAME_ERROR {
             self.worst = (error_mm, record.k, record.file, record.line, record.block);
             self.most_error_mm = error_mm;
         } else if error_mm > self.most_error_mm {

@@ -225,3 +225,38 @@ fn override_and_feedhold_on_a_rounded_square() {
         }
     }
 }
+
+/// Small circles in a few long cycles: nothing of the lines between the set points leaves them, of which only some points are
+/// examined by a plan. The distance from a circle is known.
+#[test]
+fn nothing_leaves_a_small_circle_between_two_set_points() {
+    let mut r = Random::new(seed());
+    let tolerance_mm = 0.01;
+    for n in 0..count(24) {
+        let centre = if n == 0 {
+            [0.069022, 0.041067]
+        } else {
+            [r.between(0.02, 0.2), r.between(-0.2, 0.2)].map(|c| (c * 1e6).round() / 1e6)
+        };
+        let (mode, freq) =
+            if n == 0 { (1, 60) } else { (r.pick(&[1, 2, 3, 4]), r.pick(&[30, 60, 90])) };
+        let text = format!(
+            "%P\n#SLOPE [TYPE=STEP]\n#VIB GUARD ON [MODE={mode} FREQ={freq} AX_DEV={tolerance_mm}]
+G02 X0 Y0 I{} J{} F6000\nM30\n",
+            centre[0], centre[1]
+        );
+        let run = run(&text, &["kontur.cycle_time_us=4000"]);
+        let set = |k: usize| [0, 1].map(|i| run.records[k].axes[i].set - centre[i]);
+        let radius = libm::hypot(centre[0], centre[1]);
+        for k in 1..run.records.len() {
+            let [from, to] = [set(k - 1), set(k)];
+            for part in 0..=200 {
+                let u = f64::from(part) / 200.0;
+                let at = [0, 1].map(|i| from[i] + u * (to[i] - from[i]));
+                let off = 1.0 - radius / libm::hypot(at[0], at[1]);
+                let most = off.abs() * at[0].abs().max(at[1].abs());
+                assert!(most <= tolerance_mm + SLACK_MM, "cycle {k} + {u}: {most} mm\n{text}");
+            }
+        }
+    }
+}

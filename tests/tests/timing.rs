@@ -24,8 +24,8 @@
 //! within 0.6           the run does not last longer
 //! aborted              the run ends with an error
 //! 70082@3@X            a message, its line in the row, its axis
-//! as X Y: PROGRAM      these axes move exactly as in another program, without the surroundings of the paragraph, as long as both run;
-//!                      without axes all do, as long as it; the last words of a row
+//! as X Y: PROGRAM      these axes move exactly as in another program, without the surroundings of the paragraph, and rest where only
+//!                      one of them still runs; without axes all do, as long as it; the last words of a row
 //! "text"               all texts of `#MSG`
 //! ```
 
@@ -123,8 +123,11 @@ fn other_motion(
     if named.is_empty() && run.records.len() != other.records.len() {
         return Some(format!("{} cycles, the other {}", run.records.len(), other.records.len()));
     }
-    let k = run.records.iter().zip(&other.records).position(|(a, b)| moved(a) != moved(b))?;
-    Some(format!("cycle {k}: {}, the other {}", moved(&run.records[k]), moved(&other.records[k])))
+    // beyond the end of the shorter run the axes rest
+    let held = |run: &Run, k: usize| run.records.get(k).or(run.records.last()).map(moved);
+    let cycles = run.records.len().max(other.records.len());
+    let k = (0..cycles).find(|k| held(&run, *k) != held(&other, *k))?;
+    Some(format!("cycle {k}: {:?}, the other {:?}", held(&run, k), held(&other, k)))
 }
 
 /// What a row states and the run does not fulfil.

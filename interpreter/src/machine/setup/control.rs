@@ -181,7 +181,8 @@ fn feedforward(axis: &Axis, drive: Drive, diagnostics: &mut Vec<Diagnostic>) -> 
     }
     if mode.is_empty() && axis.get(of::FF_ALWAYS_ON) {
         let (place, what) = (of::FF_ALWAYS_ON, "feedforward always on, but none is configured");
-        let about = issues::about(axis, Condition::ListNoEffect, place, what, "no effect");
+        let about =
+            issues::about(axis, Condition::ListNoEffect, place, what, "no effect until one is");
         diagnostics.push(about.hint("vorsteuer.vorsteuerung VEL (P-AXIS-00223) configures it"));
     }
     FeedforwardConfig {
