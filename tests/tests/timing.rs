@@ -126,8 +126,8 @@ fn other_motion(
     // beyond the end of the shorter run the axes rest
     let held = |run: &Run, k: usize| run.records.get(k).or(run.records.last()).map(moved);
     let cycles = run.records.len().max(other.records.len());
-    let k = (0..cycles).find(|k| held(&run, *k) != held(&other, *k))?;
-    Some(format!("cycle {k}: {:?}, the other {:?}", held(&run, k), held(&other, k)))
+    let k = (0..cycles).find(|k| held(run, *k) != held(&other, *k))?;
+    Some(format!("cycle {k}: {:?}, the other {:?}", held(run, k), held(&other, k)))
 }
 
 /// What a row states and the run does not fulfil.
