@@ -44,6 +44,7 @@ use build::{Builder, PROBLEMS_MAX, words_behind};
 use grammar::{Grammar, Rule};
 use pest::Parser as _;
 use pest::error::Error;
+use pest::iterators::Pairs;
 use problem::Problem;
 pub(crate) use problem::statement_meant;
 use std::sync::Arc;
@@ -246,25 +247,25 @@ impl Parser {
             return rest.map_or_else(|_| Block::default(), |pairs| builder.block(pairs));
         }
         match parsed {
-            Ok(pairs) => {
-                let mut block = builder.block(pairs);
-                if let Body::Command(command) = &mut block.body
-                    && !command.is_conditional()
-                    && let Some(word) = command.word_behind()
-                {
-                    let shown = masked.text.get(word.start as usize..word.end() as usize);
-                    let text = format!(
-                        "unexpected `{}`, expected the end of the block",
-                        shown.unwrap_or_default()
-                    );
-                    builder.report_error(Problem::new(Condition::WordsBehindCommand, word, text));
-                    command.behind = words_behind(&mut builder, word.start as usize);
-                }
-                block
-            }
+            Ok(pairs) => whole(builder, pairs, &masked.text),
             Err(error) => rest_of(builder, &error, &masked.text, mode),
         }
     }
+}
+
+/// A block that parses, with the words behind its command, which are an error.
+fn whole(mut builder: Builder<'_>, pairs: Pairs<'_, Rule>, masked: &str) -> Block {
+    let mut block = builder.block(pairs);
+    if let Body::Command(command) = &mut block.body
+        && !command.is_conditional()
+        && let Some(word) = command.word_behind()
+    {
+        let shown = masked.get(word.start as usize..word.end() as usize).unwrap_or_default();
+        let text = format!("unexpected `{shown}`, expected the end of the block");
+        builder.report_error(Problem::new(Condition::WordsBehindCommand, word, text));
+        command.behind = words_behind(&mut builder, word.start as usize);
+    }
+    block
 }
 
 /// Reports the failure of the grammar; the block of what can still be read.

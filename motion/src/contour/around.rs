@@ -42,7 +42,21 @@ impl Contour {
             around.blocks.push(Candidate { passed, block, distance, counts });
             return around;
         }
-        let vector = &mut AxisVec::zeros(n)[..];
+        self.search(middle, &among, all, sight, &mut around);
+        around
+    }
+
+    /// Adds the blocks out of `all` that can be nearest to a point on the line around `middle`; those of `among` count.
+    fn search<'a>(
+        &'a self,
+        middle: &[f64],
+        among: &Range<usize>,
+        all: Range<usize>,
+        sight: &mut Sight,
+        around: &mut Around<'a>,
+    ) {
+        let vector = &mut AxisVec::zeros(middle.len())[..];
+        let half = around.half;
         let within = |least: f64| (1.0 + WARY) * (least + half) + half;
         // a filter usually delays the set point by half its length: the block there rules out most of the others
         let last = sight.nearest.and_then(|number| self.index(number));
@@ -86,7 +100,6 @@ impl Contour {
         }
         sight.nearest = nearest.1;
         around.blocks.retain(|b| b.distance <= most);
-        around
     }
 
     /// Whether all blocks that [`Self::around`] searches are parts of one path: no point has vectors from several.

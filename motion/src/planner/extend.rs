@@ -38,27 +38,16 @@ impl Planner {
         let window = self.plan.window();
         // a block with zero speed ends the path before it
         let barred = window.len() < self.plan.segments.len();
-        let mut start = self.plan.start.moment;
-        if self.plan.is_at_rest() && start.origin < self.setpoint.k {
-            start = Moment::tick(self.setpoint.k);
-        }
-        let end = if barred {
-            SpeedLimit::Feed
-        } else if self.ends() {
-            SpeedLimit::Stop
-        } else {
-            SpeedLimit::Lookahead
-        };
+        let ends = (self.start(), self.end(barred));
+        let rests = ends.1 != SpeedLimit::Lookahead;
         self.plan.demands.reach_over(&window, &self.kernels, self.cycle);
         let mut forced = vec![false; window.len() + 1];
         let last_window = last_blocks(&window, self.window);
-        let rests = end != SpeedLimit::Lookahead;
         let mut last = None;
         // without a tolerance nothing changes the demands
         let asked = (!self.is_free()).then(|| self.plan.demands.clone());
         let (mut round, mut given_up) = (0, false);
         loop {
-            let ends = (start, end);
             let (searched, later) = if last.is_none() && !rests && self.is_free() {
                 round += 1;
                 self.plan_freely(&window, &forced, ends, last_window)
@@ -69,13 +58,8 @@ impl Planner {
             };
             let mut entries = match searched {
                 Searched::Kept(entries) if round > 1 && !given_up => {
-                    let entries = match &asked {
-                        Some(asked) => self.answer_only(asked, &window, &forced, ends, entries),
-                        None => entries,
-                    };
                     let front = if rests { window.len() } else { last_window };
-                    let entries = self.rest_instead(&window, &forced, ends, entries, front);
-                    self.shorten(&window, &forced, ends, entries)
+                    self.hasten(asked.as_ref(), &window, &forced, ends, entries, front)
                 }
                 Searched::Kept(entries) => entries,
                 Searched::Divided(parts) => {
@@ -112,6 +96,42 @@ impl Planner {
             }
             return Ok(());
         }
+    }
+
+    /// When the plan begins.
+    fn start(&self) -> Moment {
+        let start = self.plan.start.moment;
+        let now = self.setpoint.k;
+        if self.plan.is_at_rest() && start.origin < now { Moment::tick(now) } else { start }
+    }
+
+    /// How the plan ends; `barred`: before a block with zero speed.
+    fn end(&self, barred: bool) -> SpeedLimit {
+        if barred {
+            SpeedLimit::Feed
+        } else if self.ends() {
+            SpeedLimit::Stop
+        } else {
+            SpeedLimit::Lookahead
+        }
+    }
+
+    /// The fastest plan out of one that a search has found and what can be made of it; `asked`: the demands before the search,
+    /// `front`: the number of blocks that may become final.
+    fn hasten(
+        &mut self,
+        asked: Option<&Demands>,
+        window: &[Arc<Queued>],
+        forced: &[bool],
+        ends: (Moment, SpeedLimit),
+        mut entries: Vec<Entry>,
+        front: usize,
+    ) -> Vec<Entry> {
+        if let Some(asked) = asked {
+            entries = self.answer_only(asked, window, forced, ends, entries);
+        }
+        entries = self.rest_instead(window, forced, ends, entries, front);
+        self.shorten(window, forced, ends, entries)
     }
 
     /// Whether no block so far has a tolerance.

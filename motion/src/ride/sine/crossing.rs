@@ -194,6 +194,18 @@ impl Join<'_> {
         }
         let first = self.cells.partition_point(|c| c.end <= from.s).min(self.cells.len() - 1);
         let last = self.cells.partition_point(|c| c.end < to.s).min(self.cells.len() - 1);
+        let limits = self.limits((from, to), (first, last), way);
+        let phases = Self::fastest(from, to, &limits).or_else(|| even(from, to))?;
+        self.keeps(&phases, (first, last)).then_some(phases)
+    }
+
+    /// The limits of the blocks `first..=last` that hold for all of them, and for both states.
+    fn limits(
+        &self,
+        (from, to): (&Phase, &Phase),
+        (first, last): (usize, usize),
+        way: Way,
+    ) -> ThirdOrderLimits {
         let (mut acc, mut dec, mut jerk, mut v) =
             (f64::INFINITY, f64::INFINITY, f64::INFINITY, 0.0_f64);
         let mut lowest = f64::INFINITY;
@@ -210,20 +222,22 @@ impl Join<'_> {
             let flat = |v: f64, a: f64| v + 0.5 * a.max(0.0) * a / jerk;
             v = lowest.max(flat(from.v, from.a)).max(flat(to.v, -to.a));
         }
-        let limits = ThirdOrderLimits {
+        ThirdOrderLimits {
             v_max_mm_s: v * (1.0 + 0.5 * OVER),
             v_min_mm_s: 0.0,
             a_max_mm_s2: acc.max(from.a).max(to.a) * (1.0 + 1e-12),
             a_min_mm_s2: -dec.max(-from.a).max(-to.a) * (1.0 + 1e-12),
             jerk_mm_s3: jerk,
-        };
-        let phases = Self::fastest(from, to, &limits).or_else(|| even(from, to));
-        let phases = phases?;
+        }
+    }
+
+    /// Whether phases keep the limits of the blocks `first..=last` that they pass.
+    fn keeps(&self, phases: &[Phase], (first, last): (usize, usize)) -> bool {
         let mut c = first;
-        for phase in &phases {
+        for phase in phases {
             let end = phase.end();
             if phase.lowest() < -1e-9 {
-                return None;
+                return false;
             }
             // compare the highest speed in every block it passes, and the speeds at the boundaries
             let mut part = *phase;
@@ -237,19 +251,19 @@ impl Join<'_> {
                     || a0.max(a1) > cell.acc * (1.0 + 1e-6)
                     || a0.min(a1) < -cell.dec * (1.0 + 1e-6)
                 {
-                    return None;
+                    return false;
                 }
                 if inside {
                     break;
                 }
                 if piece.end().v > cell.cap * (1.0 + OVER) {
-                    return None;
+                    return false;
                 }
                 part = part.rest(t);
                 c += 1;
             }
         }
-        Some(phases)
+        true
     }
 
     /// The fastest third-order profile between two states.
