@@ -124,6 +124,7 @@ pub(crate) use marks::Marks;
 use set_points::SetPoints;
 use std::collections::VecDeque;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use view::View;
 
 /// Margin kept below the tolerance, in mm: two digits below the last one of a trace.
@@ -169,6 +170,8 @@ pub(crate) struct Trial<'a> {
     pub(crate) now: u64,
     /// Whether the path is at rest where the plan starts; the start can then be delayed.
     pub(crate) at_rest: bool,
+    /// Set by the host to end the examination: its result is then void.
+    pub(crate) stop: Option<&'a AtomicBool>,
 }
 
 impl Monitor {

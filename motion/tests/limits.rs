@@ -4,6 +4,7 @@
 
 use crate::common::{self, Job, axis, channel, even, line};
 use kontur_filters::time::CycleTime;
+use kontur_kit::{Random, count, seed};
 use kontur_motion::axis::AxisDynamics;
 use kontur_motion::block::SlopeKind::{Hsc, Sin2, Step, Trapez};
 use kontur_motion::block::{Block, SlopeKind, TransitionJerkMode};
@@ -138,5 +139,40 @@ fn path_jerk_limit() {
         let out = job.drive(&[&[0.0, 0.0], &[200.0, 0.0]], &[300.0]);
         let most = out.iter().map(|p| p.j_mm_s3.abs()).fold(0.0, f64::max);
         assert!(most <= 5000.0 * (1.0 + 1e-9) && most > 4990.0, "{kind:?}: {most}");
+    }
+}
+
+/// Of two axes that move the same distance each keeps its acceleration and its jerk, in every slope, and one of the two jerks is used.
+#[test]
+fn axes_that_move_together_keep_the_limits_of_both() {
+    let mut r = Random::new(seed());
+    let mut random = || {
+        let mut a = axis(1.0);
+        a.feed.acc_mm_s2 = r.log(100.0, 10_000.0);
+        a.feed.dec_mm_s2 = r.log(100.0, 10_000.0);
+        a.feed.ramps_s = [(); 4].map(|()| r.log(0.001, 0.2));
+        (a.rapid.acc_mm_s2, a.rapid.ramp_s) = (r.log(100.0, 10_000.0), r.log(0.001, 0.2));
+        (a.feedhold.dec_mm_s2, a.feedhold.ramp_s) = (r.log(100.0, 10_000.0), r.log(0.001, 0.2));
+        a
+    };
+    // acceleration and ramp time of every ramp
+    let ramps = |a: &AxisDynamics| {
+        let [t1, t2, t3, t4] = a.feed.ramps_s;
+        let (acc, dec) = (a.feed.acc_mm_s2, a.feed.dec_mm_s2);
+        let others =
+            [(a.rapid.acc_mm_s2, a.rapid.ramp_s), (a.feedhold.dec_mm_s2, a.feedhold.ramp_s)];
+        [(acc, t1), (acc, t2), (dec, t3), (dec, t4), others[0], others[1]]
+    };
+    for _ in 0..count(500) {
+        let (a, b) = (random(), random());
+        for both in [a.with(&b), b.with(&a)] {
+            for (((acc, ramp), (acc_a, ramp_a)), (acc_b, ramp_b)) in
+                ramps(&both).into_iter().zip(ramps(&a)).zip(ramps(&b))
+            {
+                assert_eq!(acc, acc_a.min(acc_b));
+                let least = (acc_a / ramp_a).min(acc_b / ramp_b);
+                assert!((acc / ramp / least - 1.0).abs() < 1e-12, "{a:?} {b:?}");
+            }
+        }
     }
 }

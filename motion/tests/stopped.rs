@@ -1,6 +1,6 @@
 //! A planner that its host stops from another thread in the middle of a search.
 
-use crate::common::{Job, machine};
+use crate::common::{Job, arc, machine};
 use kontur_filters::time::CycleTime;
 use kontur_kit::Random;
 use kontur_motion::block::{Block, SlopeKind};
@@ -62,4 +62,21 @@ fn a_stopped_planner_outputs_nothing_of_an_unfinished_search() {
             assert_eq!((out.len(), end), (0, Next::Stopped));
         }
     }
+}
+
+/// One block that is examined for minutes: 3e7 cycles on an arc.
+#[test]
+fn a_stop_ends_a_long_examination() {
+    let job = Job::new(1.2, SlopeKind::Trapez).guarded(2, 8.0, 0.1, Some(1e-9));
+    let path = arc(&[10.0, 0.0], &[-10.0, 0.0], [0.0, 0.0], std::f64::consts::PI);
+    let blocks = [job.block(1, path, 1e-3)];
+    let stop = Arc::new(AtomicBool::new(false));
+    let set = Arc::clone(&stop);
+    let other = thread::spawn(move || {
+        thread::sleep(Duration::from_millis(50));
+        set.store(true, Ordering::Relaxed);
+    });
+    let (out, end) = drive(&job, &blocks, &stop);
+    other.join().unwrap();
+    assert_eq!((out.len(), end), (0, Next::Stopped));
 }

@@ -1,8 +1,10 @@
 //! Ctrl-C: a run stops after the present cycle or block, so that traces and summary are complete up to there.
 
+use crate::clock::now;
 use kontur_interpreter::job::Stop;
-use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::{LazyLock, OnceLock};
+use std::time::{Duration, Instant};
 
 /// Nothing is running that would have to be completed.
 const IDLE: u8 = 0;
@@ -22,6 +24,12 @@ pub(crate) fn stop() -> Stop {
 /// Exit code of a process that Ctrl-C ended at once, as in shells: 128 + SIGINT.
 const ENDED: i32 = 130;
 
+/// When a run was first asked to stop.
+static ASKED: OnceLock<Instant> = OnceLock::new();
+
+/// Time within which signals count as one: a supervisor signals a process and then its group.
+const TOGETHER: Duration = Duration::from_millis(500);
+
 /// Installs the handler of Ctrl-C. The first Ctrl-C stops a run in an orderly way; without a run, and the second time,
 /// it ends the process.
 pub(crate) fn listen() {
@@ -29,8 +37,12 @@ pub(crate) fn listen() {
         let asked =
             STATE.compare_exchange(RUNNING, REQUESTED, Ordering::Relaxed, Ordering::Relaxed);
         if asked.is_err() {
+            if ASKED.get().is_some_and(|at| at.elapsed() < TOGETHER) {
+                return;
+            }
             std::process::exit(ENDED);
         }
+        ASKED.get_or_init(now);
         STOP.set();
     });
     // without a handler Ctrl-C ends the process at once, as usual

@@ -20,6 +20,7 @@
 pub mod args;
 pub mod chart;
 mod check;
+mod clock;
 mod combinations;
 pub mod console;
 mod diff;

@@ -2,7 +2,6 @@
 
 mod background;
 pub(crate) mod batch;
-mod clock;
 pub(crate) mod csv;
 pub(crate) mod fixed;
 #[cfg(feature = "parquet")]

@@ -204,6 +204,22 @@ fn a_signal_ends_a_run_with_whole_files() {
     }
 }
 
+/// A supervisor signals a process and its group: the second signal must not cost what the first one saves.
+#[test]
+fn two_signals_at_once_are_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let f = folder.path();
+    fs::write(f.join("a.nc"), LONG).unwrap();
+    let mut child = kontur(f, &["run", "a.nc", "-o", "a.csv", "--signals", "ipo"]).spawn().unwrap();
+    until(|| fs::metadata(f.join("a.csv")).is_ok_and(|m| m.len() > 100_000));
+    // two kinds, because two of one kind may be delivered as one
+    let id = child.id();
+    let both = format!("kill -INT {id}; kill -TERM {id}");
+    assert!(Command::new("sh").args(["-c", &both]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    assert!(csv_rows(&f.join("a.csv")) > 0);
+}
+
 /// Rows of consecutive Parquet files; time increases by one cycle per row.
 #[cfg(feature = "parquet")]
 fn parquet_rows(paths: &[PathBuf]) -> u64 {

@@ -16,7 +16,7 @@ use std::sync::{Arc, OnceLock};
 const SPLIT: f64 = 1e-13;
 /// Largest depth of halving.
 const DEPTH: u32 = 12;
-/// Residual, as a share of a sub-interval, from which on one more Newton step, which squares it, leaves only rounding.
+/// Newton step, as a share of a sub-interval, that is the last one: the step squares the error, so that only rounding is left.
 const EXACT: f64 = 1e-8;
 /// As [`EXACT`], where 1e-7 of the length is enough ([`PolyPath::near`]).
 const GUESS: f64 = 1e-4;
@@ -273,8 +273,7 @@ impl PolyPath {
         self.point(piece, x, out);
     }
 
-    /// Piece and parameter at `s`, by Newton's method. The first residual up to `enough` is followed by the last step, which
-    /// squares it.
+    /// Piece and parameter at `s`, by Newton's method, whose first step of at most `enough` of a sub-interval is the last one.
     ///
     /// The parameter is first estimated by a cubic in the path length with the correct values and slopes at both ends
     /// of a cell.
@@ -292,8 +291,7 @@ impl PolyPath {
         for _ in 0..50 {
             let miss = self.gauss(cell.piece, cell.from, x) - want;
             let newton = x - miss / self.rate(cell.piece, x);
-            // next to a cusp the step is not as small as the residual
-            if miss.abs() <= enough * whole && (newton - x).abs() <= enough.sqrt() * width {
+            if (newton - x).abs() <= enough * width {
                 x = newton;
                 break;
             }

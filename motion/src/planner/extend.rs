@@ -243,6 +243,7 @@ impl Planner {
             cycle: self.cycle,
             now: self.setpoint.k,
             at_rest: self.plan.is_at_rest(),
+            stop: self.stop.as_deref(),
         }
     }
 

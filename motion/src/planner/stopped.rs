@@ -11,7 +11,7 @@ impl Planner {
         self.stop = Some(stop);
     }
 
-    /// Whether the host has stopped it; once true, it remains so for this thread.
+    /// Whether the host has stopped it.
     pub(super) fn is_stopped(&self) -> bool {
         self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }

@@ -5,7 +5,6 @@
 //! plans are measured.
 
 use super::harvest::Harvest;
-use super::ranges::chunks;
 use super::view::{Buffer, View};
 use super::violation::{Record, Violation, within};
 use crate::axis::AxisVec;
@@ -33,7 +32,7 @@ impl View<'_> {
         let n = buffer.set().len();
         let (mut companion, mut vector) = (AxisVec::zeros(n), AxisVec::zeros(n));
         let mut walk = contour.walk();
-        for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
+        for (from, to) in self.stretches(among) {
             let first = from.saturating_sub(u64::from(length) + 1);
             let mut record = Record::of((first, to));
             let mut harvest = Harvest::new(self, &mut worst, &mut found);

@@ -4,7 +4,6 @@ use super::BORDER_CYCLES;
 use super::bound::Companion;
 use super::harvest::Harvest;
 use super::measure::SPACING;
-use super::ranges::chunks;
 use super::set_points::SetPoints;
 use super::view::View;
 use super::violation::{Record, Violation, within};
@@ -38,7 +37,7 @@ impl View<'_> {
         let mut left = Left::default();
         let n = points.axes();
         let mut companion = Companion::new(&self.marks, &self.contour, n);
-        for (from, to) in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
+        for (from, to) in self.stretches(among) {
             let first = self.first_for((from, to));
             let mut record = Record::of((first, to));
             let mut set = SetPath::of((first, to), n);

@@ -194,7 +194,8 @@ mod tests {
                 }
                 let plan = plan(&blocks, s_mm, spans);
                 let (timeline, past, kernels, plan) = (&timeline, &past, &kernels, &plan[..]);
-                let trial = Trial { timeline, plan, past, kernels, cycle, now: 0, at_rest };
+                let (now, stop) = (0, None);
+                let trial = Trial { timeline, plan, past, kernels, cycle, now, at_rest, stop };
                 known.follow(&trial);
                 let mut anew = Marks::default();
                 anew.follow(&trial);

@@ -10,6 +10,7 @@ use super::view::View;
 use super::violation::{Record, Violation, within};
 use crate::deviation::{ALIKE, Unkept};
 use crate::timeline::{PathState, Reader};
+use std::sync::atomic::Ordering;
 
 /// Relative difference of path increments per cycle up to which the speed counts as constant.
 const EVEN: f64 = 1e-7;
@@ -96,7 +97,7 @@ impl View<'_> {
         let reach = u64::from(self.trial.kernels.length());
         let mut worst: Option<Unkept> = None;
         let mut companion = Companion::new(&self.marks, &self.contour, points.axes());
-        for stretch in self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to)) {
+        for stretch in self.stretches(among) {
             let suspects = self.suspects(stretch, ALIKE, points, &mut companion, |_, _, _| ());
             // whether a point is missed is known only after it has left the filters
             let ends = suspects.cycles.iter().map(|(a, b)| (*a, b + reach + 2));
@@ -113,8 +114,16 @@ impl View<'_> {
         from.saturating_sub(u64::from(self.trial.kernels.length()) + 3)
     }
 
+    /// The cycles to be measured among those given, stretch by stretch, until the host stops the planner.
+    pub(super) fn stretches(&self, among: &[(u64, u64)]) -> impl Iterator<Item = (u64, u64)> {
+        let stop = self.trial.stop;
+        let goes_on = move |_: &(u64, u64)| !stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+        let stretches = self.active(among).into_iter().flat_map(|(from, to)| chunks(from, to));
+        stretches.take_while(goes_on)
+    }
+
     /// The cycles, among those given, in which the set path can leave the contour or miss part of it.
-    pub(super) fn active(&self, among: &[(u64, u64)]) -> Vec<(u64, u64)> {
+    fn active(&self, among: &[(u64, u64)]) -> Vec<(u64, u64)> {
         let reach = u64::from(self.trial.kernels.length());
         let mut reader = Reader::new(self.trial.timeline, self.trial.plan);
         let mut active: Vec<(u64, u64)> = Vec::new();

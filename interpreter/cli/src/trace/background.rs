@@ -4,8 +4,8 @@
 //! a run that is faster than its file waits. The rows are the same, in the same order, as without a thread.
 
 use super::batch::{Batch, Numbers};
-use super::clock::now;
 use super::writer::Writer;
+use crate::clock::now;
 use kontur_interpreter::record::Rows;
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};

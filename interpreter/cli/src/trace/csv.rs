@@ -1,8 +1,8 @@
 //! The CSV writer: one header line, one line per cycle, whole lines only.
 
 use super::batch::{Batch, Head};
-use super::clock::now;
 use super::fixed::{Cells, NumberTable, Repeating};
+use crate::clock::now;
 use crate::console::Output;
 use crate::target;
 use kontur_interpreter::job::{Facts, FileNames};

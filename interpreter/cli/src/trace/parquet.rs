@@ -23,7 +23,7 @@ mod numbers;
 mod words;
 
 use super::batch::Batch;
-use super::clock::now;
+use crate::clock::now;
 use crate::target::{Target, folder_of};
 use ::parquet::file::metadata::KeyValue;
 use chunk::Chunk;

@@ -206,3 +206,27 @@ fn the_extent_of_an_axis_holds_every_sample() {
         }
     }
 }
+
+/// The cusp of the curve (t^2, t^3), whose length from it is ((4 + 9 t^2)^(3/2) - 8) / 27: the speed of the parameter is 0 there.
+#[test]
+fn positions_beside_a_cusp_have_their_length() {
+    let toward = [[1.0, -2.0, 1.0, 0.0, 0.0, 0.0], [-1.0, 3.0, -3.0, 1.0, 0.0, 0.0]];
+    let away = [[0.0, 0.0, 1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]];
+    let pieces = [toward, away].map(|axes| PolyPiece::from_slice(&axes)).to_vec();
+    let path = PolyPath::through(pieces, &[true, true]).unwrap();
+    let from_cusp = |t: f64| (libm::pow(4.0 + 9.0 * t * t, 1.5) - 8.0) / 27.0;
+    assert!((path.length() - 2.0 * from_cusp(1.0)).abs() < 1e-12);
+    let mut q = [0.0; 2];
+    for exponent in 0..=60 {
+        let t = libm::pow(10.0, -0.1 * f64::from(exponent));
+        for side in [-1.0, 1.0] {
+            let s = from_cusp(1.0) + side * from_cusp(t);
+            path.position(s, &mut q);
+            let off = libm::hypot(q[0] - t * t, q[1] - side * t * t * t);
+            assert!(off < 1e-12, "{t}: {off}");
+            path.near(s, &mut q);
+            let off = libm::hypot(q[0] - t * t, q[1] - side * t * t * t);
+            assert!(off < 1e-7 * path.length(), "{t}: {off}");
+        }
+    }
+}
